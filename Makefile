@@ -49,7 +49,7 @@ PROOF_OPTIONS  ?=
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
-	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
 	@build/release/veritrack certify $(DESIGN)
 
 # What the targets below run: make -j2 --output-sync verify proofs builds it once, and then runs both side by side.

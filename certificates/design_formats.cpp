@@ -1,5 +1,8 @@
 // The formats of the design files of all trackers.
+#include <algorithm>
+#include <any>
 #include <array>
+#include <vector>
 
 #include "certificates/design/design_format.hpp"
 
@@ -16,6 +19,23 @@ std::span<const DesignFormat* const> design_formats() {
 #undef VERITRACK_TRACKER
   };
   return formats;
+}
+
+KeyContract contract_of(std::string_view tracker, std::string_view table, std::string_view key) {
+  for (const DesignFormat* format : design_formats()) {
+    if (format->tracker != tracker) {
+      continue;
+    }
+    std::any tables = format->empty_tables();
+    for (const BoundTable& bound : format->bind_tables(tables)) {
+      const auto found = std::find_if(bound.keys.begin(), bound.keys.end(),
+                                      [&](const BoundKey& each) { return each.name == key; });
+      if (bound.name == table && found != bound.keys.end()) {
+        return found->contract;
+      }
+    }
+  }
+  return {};
 }
 
 }  // namespace veritrack::certificates

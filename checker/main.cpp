@@ -4,6 +4,7 @@
 #include <mpfr.h>
 #include <nettle/version.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -63,11 +64,19 @@ struct Options {
   bool as_json = false;
 };
 
+/// Not more than the memory of a small machine.
+constexpr std::size_t kLargestFile = std::size_t{1} << 28U;
+
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
-    throw Malformed(path + ": the file cannot be read");
+  std::string text;
+  std::array<char, 65536> block{};
+  while (file.read(block.data(), block.size()), file.gcount() > 0 && text.size() <= kLargestFile) {
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad() || !file.eof()) {
+    throw Malformed(path + (text.size() > kLargestFile ? ": the file has more than 256 MiB"
+                                                       : ": the file cannot be read"));
   }
   return text;
 }

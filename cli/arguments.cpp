@@ -28,10 +28,11 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
     {"check",
      "  veritrack check my-design.toml\n"
      "  veritrack check designs/ --strict --junit verdicts.xml\n"
-     "  veritrack check designs/ --jobs 4 --timeout 600 --no-cache"},
+     "  veritrack check designs/ --jobs 4 --timeout 600 --verify --no-cache"},
     {"diff",
      "  veritrack diff old/certificate.json new/certificate.json\n"
-     "  veritrack diff old.toml new.toml"},
+     "  veritrack diff old.toml new.toml\n"
+     "  veritrack diff old.toml new.toml --accept assume.noise"},
     {"map",
      "  veritrack map my-design.toml\n"
      "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise --html\n"
@@ -103,14 +104,22 @@ void add_commands(CLI::App& app, Arguments& into) {
   certify
       ->add_option("--timeout", into.certify.seconds,
                    "end the search of a design with tracker model after so many seconds, and write what is "
-                   "proved by then")
+                   "proved by then; the verification at the end is not counted")
       ->check(seconds);
+  certify->add_flag(
+      "--no-verify", into.certify.no_verify,
+      "do not have the certificate verified by veritrack-verify at the end, which takes seconds, "
+      "and minutes for recursions with a large proof");
 
   CLI::App* check =
       app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
   check->add_option("DESIGN", into.check.designs, "design files (TOML), or folders of them")->required();
   check->add_option("--jobs", into.check.jobs, "designs at a time (default: one for each core)")
       ->check(CLI::Range(1, 1024));
+  check->add_flag(
+      "--verify", into.check.verify,
+      "also have each certificate verified by veritrack-verify, as certify does: what it refuses is "
+      "UNDECIDED");
   check->add_flag("--no-cache", into.check.no_cache,
                   "check again what this program has checked before (docs/ci.md)");
   check->add_option("--json", into.check.json, "also write the verdicts as JSON");
@@ -118,8 +127,10 @@ void add_commands(CLI::App& app, Arguments& into) {
   check->add_option("--sarif", into.check.sarif, "also write what is not PROVED as SARIF 2.1.0");
 
   check
-      ->add_option("--timeout", into.check.seconds,
-                   "stop each design after so many seconds: what is not decided by then is UNDECIDED")
+      ->add_option(
+          "--timeout", into.check.seconds,
+          "stop each design after so many seconds, its verification included: what is not decided by "
+          "then is UNDECIDED")
       ->check(seconds);
   check->add_flag("--strict", into.check.strict, "a design that requires nothing is 1, not 0");
 
@@ -127,12 +138,15 @@ void add_commands(CLI::App& app, Arguments& into) {
   diff->add_option("OLD", into.diff.before, "design file (TOML), certificate.json, or its folder")
       ->required();
   diff->add_option("NEW", into.diff.after, "likewise")->required();
-  diff->add_option("--tolerance", into.diff.tolerance, "relative changes up to this count as none")
+  diff->add_option("--tolerance", into.diff.tolerance, "relative changes of bounds up to this count as none")
       ->check([](const std::string& text) {
         const double value = rigor::nearest_double(text);
         return value >= 0.0 && value < 1.0 ? std::string() : std::string("allowed: a number from 0, below 1");
       })
       ->capture_default_str();
+  diff->add_option("--accept", into.diff.accepted,
+                   "a change for the worse that is meant, by its key, such as assume.noise; may be repeated")
+      ->allow_extra_args(false);
 
   CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
   map->add_option(
@@ -239,7 +253,7 @@ void add_commands(CLI::App& app, Arguments& into) {
       ->check(CLI::Range(1e-9, 3.15));
   track->add_option("--start-hz", into.track.start_hertz, "the same in Hz")->check(CLI::Range(1e-9, 1e15));
   track->add_flag("--strict", into.track.strict,
-                  "1 when lock is lost or the recording exceeds what the certificate assumes");
+                  "1 when lock is lost, or when the recording does not keep to an assumption");
 
   CLI::App* reproduce = app.add_subcommand(
       "reproduce",

@@ -3,11 +3,12 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -15,10 +16,12 @@
 #include "certificates/design/design_reader.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/document/certificate.hpp"
-#include "certificates/document/output_files.hpp"
+#include "certificates/document/json.hpp"
 #include "certificates/document/tracker_kind.hpp"
+#include "cli/check_output.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/verifier.hpp"
 #include "cli/workers.hpp"
 #include "reports/check/check_cache.hpp"
 #include "reports/check/check_reports.hpp"
@@ -40,53 +43,81 @@ struct CheckTask {
   std::optional<CheckedDesign> checked;  ///< once it is known
 };
 
-/// The files that are named, and of a folder all design files in it and below, by name.
-std::vector<std::string> design_files(const std::vector<std::string>& named) {
-  std::vector<std::string> files;
-  for (const std::string& name : named) {
-    if (!fs::is_directory(name)) {
-      files.push_back(name);
-      continue;
-    }
-    std::vector<std::string> inside;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(name)) {
+/// A design, or what was named as one, that cannot be used.
+CheckTask bad_task(const std::string& path, const std::string& message,
+                   certificates::Position position = {}) {
+  return {
+      path, {}, std::nullopt, CheckedDesign{path, {}, CheckObjection{Kind::bad_input, message, position}}};
+}
+
+/// Adds the design files in a folder and below, by name.
+void add_folder(const std::string& folder, std::vector<CheckTask>& tasks) {
+  std::vector<std::string> inside;
+  try {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.is_regular_file() && entry.path().extension() == ".toml") {
         inside.push_back(entry.path().string());
       }
     }
-    if (inside.empty()) {
-      throw certificates::InputError(name, {}, "has no design file; allowed: a folder with files *.toml");
-    }
-    std::sort(inside.begin(), inside.end());
-    files.insert(files.end(), inside.begin(), inside.end());
+  } catch (const fs::filesystem_error& error) {
+    tasks.push_back(bad_task(folder, fmt::format("cannot be read: {}; allowed: a folder that can be read",
+                                                 error.code().message())));
+    return;
   }
-  return files;
+  if (inside.empty()) {
+    tasks.push_back(bad_task(folder, "has no design file; allowed: a folder with files *.toml"));
+  }
+  std::sort(inside.begin(), inside.end());
+  for (const std::string& path : inside) {
+    tasks.push_back({path, {}, std::nullopt, std::nullopt});
+  }
+}
+
+/// The files that are named, and those of folders.
+std::vector<CheckTask> tasks_of(const std::vector<std::string>& named) {
+  std::vector<CheckTask> tasks;
+  for (const std::string& name : named) {
+    if (fs::is_directory(name)) {
+      add_folder(name, tasks);
+    } else {
+      tasks.push_back({name, {}, std::nullopt, std::nullopt});
+    }
+  }
+  return tasks;
+}
+
+/// What came of a design, with what the options ask of it.
+CheckedDesign judged(CheckedDesign checked, const std::string& path, const CheckOptions& options) {
+  checked.path = path;
+  if (options.strict && !checked.objection && checked.requirements.empty()) {
+    checked.objection =
+        CheckObjection{Kind::nothing_required, "nothing is required, and --strict asks for something", {}};
+  }
+  return checked;
 }
 
 /// Reads the file; what is wrong with it is noted, and the others are still checked.
-CheckTask read_task(const std::string& path, const std::optional<reports::CheckCache>& cache) {
-  CheckTask task;
-  task.path = path;
+void read_task(CheckTask& task, const CheckOptions& options,
+               const std::optional<reports::CheckCache>& cache) {
   try {
-    task.text = certificates::read_design_text(path);
+    task.text = certificates::read_design_text(task.path);
     if (cache) {
       task.checked = cache->find(task.text);
     }
     if (!task.checked) {
-      task.design = certificates::read_design(task.text, path);
+      task.design = certificates::read_design(task.text, task.path);
     }
   } catch (const certificates::InputError& error) {
-    task.checked = CheckedDesign{
-        path, {}, CheckObjection{Kind::bad_input, error.message(), {error.line(), error.column()}}};
+    task = bad_task(task.path, error.message(), {error.line(), error.column()});
   }
   if (task.checked) {
-    task.checked->path = path;
+    task.checked = judged(std::move(*task.checked), task.path, options);
   }
-  return task;
 }
 
 /// Certifies in a process of its own, with its share of the cores.
-std::string work_on(const CheckTask& task, const CheckOptions& options, std::size_t at_once, bool is_alone) {
+std::string work_on(const CheckTask& task, const CheckOptions& options,
+                    const std::optional<Verifier>& verifier, std::size_t at_once, bool is_alone) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const tbb::global_control share(tbb::global_control::max_allowed_parallelism,
                                   std::max<std::size_t>(1, cores / at_once));
@@ -96,7 +127,17 @@ std::string work_on(const CheckTask& task, const CheckOptions& options, std::siz
   const certificates::Certificate certificate =
       certificates::certify(*task.design, fs::path(task.path).filename().string(), task.text, std::cref(line),
                             certificates::Extent::verdicts, deadline);
-  return reports::to_text({task.path, reports::requirements_of(certificate), std::nullopt});
+  CheckedDesign checked{task.path, reports::requirements_of(certificate)};
+  checked.cut_short = deadline.has_struck();
+  if (verifier) {
+    const certificates::Verification found = (*verifier)({certificates::to_json(certificate), task.text});
+    if (!found.failure.empty()) {
+      throw std::runtime_error(refusal_sentence(found));
+    }
+    const bool is_verified = found.outcome == certificates::Verification::Outcome::verified;
+    reports::note_verification(checked, is_verified ? "" : refusal_sentence(found));
+  }
+  return reports::to_text(checked);
 }
 
 /// Searches that know of the limit end by themselves, a little later.
@@ -107,7 +148,7 @@ double patience(const CheckTask& task, double seconds) {
                                                                               : seconds;
 }
 
-CheckedDesign checked_by(const WorkerResult& result, const CheckTask& task, const CheckOptions& options) {
+CheckedDesign checked_by(const WorkerResult& result, const CheckOptions& options) {
   CheckedDesign checked;
   switch (result.end) {
     case WorkerResult::End::untrustable:
@@ -126,85 +167,53 @@ CheckedDesign checked_by(const WorkerResult& result, const CheckTask& task, cons
         checked.objection = CheckObjection{Kind::failure, "the process that worked on it said nothing", {}};
       }
   }
-  checked.path = task.path;
   checked.seconds = result.seconds;
   return checked;
 }
 
-/// Prints what came of a design; its part of the exit status.
-ExitStatus print(const CheckedDesign& design, const CheckOptions& options) {
-  const char* actions = std::getenv("GITHUB_ACTIONS");
-  if (actions != nullptr && std::string(actions) == "true") {
-    fmt::print("{}", reports::to_annotations(design));
-  }
-  if (const auto& objection = design.objection) {
-    if (objection->kind == Kind::time_limit) {
-      fmt::print("{}: undecided: {}\n", design.path, objection->message);
-      return not_proved;
-    }
+/// The last line, and the reports, which may go to standard output as well.
+ExitStatus finish(const CheckOptions& options, std::size_t designs, std::vector<CheckedDesign>& checked) {
+  if (designs > 1) {
+    fmt::print("{}\n", reports::summary_of(checked));
     std::fflush(stdout);
-    fmt::print(stderr, "{}\n",
-               certificates::InputError(design.path, objection->position, objection->message).what());
-    return bad_input;
   }
-  if (design.requirements.empty()) {
-    fmt::print("{}: nothing required\n", design.path);
-    return options.strict ? not_proved : all_proved;
-  }
-  ExitStatus status = all_proved;
-  for (const reports::CheckedRequirement& each : design.requirements) {
-    fmt::print("{}:{}: {}: {} ({})\n", design.path, each.position.line, rigor::to_string(each.verdict),
-               each.requirement, each.reason);
-    status = each.verdict == rigor::Verdict::proved ? status : not_proved;
-  }
-  return status;
-}
-
-/// Stages the reports that are asked for.
-void stage_reports(const CheckOptions& options, const std::vector<std::string>& designs,
-                   certificates::OutputFiles& files, const std::vector<CheckedDesign>& checked) {
-  for (const std::string& path : designs) {
-    files.keep(path);
-  }
-  using Report = std::string (*)(const std::vector<CheckedDesign>&);
-  for (const auto& [path, report] : {std::pair<std::string, Report>{options.json, reports::to_check_json},
-                                     {options.junit, reports::to_junit},
-                                     {options.sarif, reports::to_sarif}}) {
-    if (!path.empty()) {
-      files.stage(path, report(checked));
-    }
-  }
+  write_reports(options, checked);
+  return static_cast<ExitStatus>(reports::exit_status_of(checked));
 }
 
 }  // namespace
 
 ExitStatus run_check(const CheckOptions& options) {
-  const std::vector<std::string> designs = design_files(options.designs);
-  {
-    // What cannot be written is better known before minutes of work.
-    certificates::OutputFiles files;
-    stage_reports(options, designs, files, {});
+  std::vector<CheckTask> tasks = tasks_of(options.designs);
+  std::vector<std::string> paths;
+  std::transform(tasks.begin(), tasks.end(), std::back_inserter(paths),
+                 [](const CheckTask& task) { return task.path; });
+  if (auto failures = unwritable_reports(options, paths); !failures.empty()) {
+    std::for_each(failures.begin(), failures.end(), print_checked);
+    return finish(options, 0, failures);
   }
+  const std::optional<Verifier> verifier =
+      options.verify ? std::optional<Verifier>(std::in_place) : std::nullopt;
   std::optional<reports::CheckCache> cache;
   const fs::path cache_folder = options.no_cache ? fs::path() : reports::default_cache_folder();
   if (const std::string program = cache_folder.empty() ? "" : reports::program_identity(); !program.empty()) {
-    cache.emplace(cache_folder, program);
+    cache.emplace(cache_folder,
+                  verifier ? program + " and " + reports::program_identity(verifier->path()) : program);
   }
-  std::vector<CheckTask> tasks;
-  tasks.reserve(designs.size());
-  for (const std::string& path : designs) {
-    tasks.push_back(read_task(path, cache));
+  for (CheckTask& task : tasks) {
+    if (!task.checked) {
+      read_task(task, options, cache);
+    }
   }
 
   const ProgressLine line(options.quiet || tasks.size() == 1);
-  ExitStatus status = all_proved;
   std::size_t printed = 0;
   std::size_t known = 0;
   // In the order of the arguments, as soon as those before are known.
   const auto print_known = [&] {
     line.clear();
     for (; printed < tasks.size() && tasks[printed].checked; ++printed) {
-      status = std::max(status, print(*tasks[printed].checked, options));
+      print_checked(*tasks[printed].checked);
     }
     std::fflush(stdout);
     line(known, tasks.size());
@@ -224,15 +233,16 @@ ExitStatus run_check(const CheckOptions& options) {
                                                         : std::max(1U, std::thread::hardware_concurrency()),
                                        std::max<std::size_t>(1, open.size()));
   plan.work = [&](std::size_t piece) {
-    return work_on(tasks[open[piece]], options, plan.at_once, tasks.size() == 1);
+    return work_on(tasks[open[piece]], options, verifier, plan.at_once, tasks.size() == 1);
   };
   plan.limit = [&](std::size_t piece) { return patience(tasks[open[piece]], options.seconds); };
   plan.done = [&](std::size_t piece, const WorkerResult& result) {
     CheckTask& task = tasks[open[piece]];
-    task.checked = checked_by(result, task, options);
-    if (cache && !(options.seconds > 0.0)) {
-      cache->keep(task.text, *task.checked);
+    CheckedDesign checked = checked_by(result, options);
+    if (cache) {
+      cache->keep(task.text, checked);
     }
+    task.checked = judged(std::move(checked), task.path, options);
     ++known;
     print_known();
   };
@@ -243,10 +253,8 @@ ExitStatus run_check(const CheckOptions& options) {
   for (CheckTask& task : tasks) {
     checked.push_back(std::move(*task.checked));
   }
-  certificates::OutputFiles files;
-  stage_reports(options, designs, files, checked);
-  files.commit();
-  return status;
+  line.clear();
+  return finish(options, tasks.size(), checked);
 }
 
 }  // namespace veritrack::cli

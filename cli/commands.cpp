@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
@@ -18,6 +20,7 @@
 #include "cli/default_folder.hpp"
 #include "cli/interruption.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/verifier.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/ledger/ledger_report.hpp"
 #include "reports/reproductions/reproduction.hpp"
@@ -61,17 +64,49 @@ certificates::Certificate certify_with_progress(const std::string& design_path, 
 
 }  // namespace
 
+namespace {
+
+/// The checker, unless it is not to be asked, or is not there, which is said.
+std::optional<Verifier> verifier_for(const CertifyOptions& options) {
+  try {
+    return options.no_verify ? std::nullopt : std::optional<Verifier>(std::in_place);
+  } catch (const NoVerifier& error) {
+    fmt::print(stderr, "{}: will not be verified: {}\n", options.design, error.what());
+    return std::nullopt;
+  }
+}
+
+/// Asks the checker, and notes how many seconds it took.
+certificates::Verification verify_with_progress(const Verifier& verifier, const reports::TextsToVerify& texts,
+                                                bool quiet, double& seconds) {
+  const ProgressLine line(quiet, "verifying");
+  const auto start = std::chrono::steady_clock::now();
+  certificates::Verification verification = verifier(texts);
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return verification;
+}
+
+}  // namespace
+
 ExitStatus run_certify(const CertifyOptions& options) {
   const bool by_name = options.directory.empty();
   const std::filesystem::path directory =
       by_name ? default_folder("certificates-out", options.design) : std::filesystem::path(options.directory);
+  const std::optional<Verifier> verifier = verifier_for(options);
   certificates::Certificate certificate =
       certify_with_progress(options.design, options.quiet, certificates::Extent::everything, options.seconds);
   if (options.coq) {
     certificate.formal_proofs = certificates::coq_proofs(certificate);
   }
+  double seconds = 0.0;
+  reports::Verify verify;
+  if (verifier) {
+    verify = [&](const reports::TextsToVerify& texts) {
+      return verify_with_progress(*verifier, texts, options.quiet, seconds);
+    };
+  }
   const reports::CertificateFiles files =
-      reports::write_certificate_files(certificate, directory, options.design, options.renderings);
+      reports::write_certificate_files(certificate, directory, options.design, options.renderings, verify);
   if (by_name) {
     mark_folder(directory, options.design);
   }
@@ -84,7 +119,17 @@ ExitStatus run_certify(const CertifyOptions& options) {
       fmt::print(stderr, "{}: {}\n", options.design, sentence);
     }
   }
-  fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate));
+  using Outcome = certificates::Verification::Outcome;
+  const Outcome outcome = files.verification.outcome;
+  fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate, files.verification));
+  if (outcome == Outcome::verified) {
+    fmt::print("VERIFIED by veritrack-verify in {:.1f} s\n", seconds);
+  } else if (outcome == Outcome::refused) {
+    fmt::print("NOT VERIFIED: {}\n", refusal_sentence(files.verification));
+    return not_proved;
+  } else if (verifier) {
+    fmt::print(stderr, "{}: not verified: interrupted\n", options.design);
+  }
   const ExitStatus status = status_of(certificate);
   if (status == not_proved && certificates::can_be_tuned(certificate.design) && !options.quiet) {
     fmt::print(stderr, "{}: veritrack tune looks for design values that meet what is required\n",

@@ -21,8 +21,9 @@ struct CertifyOptions {
   std::string directory;
   bool coq = false;
   reports::page::Renderings renderings;
-  double seconds = 0.0;  ///< after which the search ends; 0: never
-  bool quiet = false;    ///< no progress on standard error
+  double seconds = 0.0;    ///< after which the search ends; 0: never
+  bool no_verify = false;  ///< the checker is not asked
+  bool quiet = false;      ///< no progress on standard error
 };
 
 struct CheckOptions {
@@ -33,6 +34,7 @@ struct CheckOptions {
   bool strict = false;    ///< a design that requires nothing is not_proved
   double seconds = 0.0;   ///< for each design, after which it is stopped; 0: never
   int jobs = 0;           ///< designs at a time; 0: as many as there are cores
+  bool verify = false;    ///< what the checker refuses is UNDECIDED
   bool no_cache = false;  ///< verdicts of an earlier run of this program are not used
   bool quiet = false;     ///< no progress on standard error
 };
@@ -40,8 +42,9 @@ struct CheckOptions {
 struct DiffOptions {
   std::string before;  ///< a design file, a certificate.json, or its folder
   std::string after;
-  std::string tolerance = "0.001";  ///< relative changes up to it count as none
-  bool quiet = false;               ///< no progress on standard error
+  std::string tolerance = "0.001";    ///< relative changes up to it count as none
+  std::vector<std::string> accepted;  ///< keys of what is worse and meant
+  bool quiet = false;                 ///< no progress on standard error
 };
 
 struct MapOptions {

@@ -1,5 +1,6 @@
 // veritrack diff: what became better or worse from one certificate, or design, to another.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/design/design_reader.hpp"
@@ -44,24 +46,48 @@ std::string certificate_of(const std::string& path, bool quiet) {
   return text;
 }
 
+std::string_view word_of(ChangeKind kind) {
+  switch (kind) {
+    case ChangeKind::better:
+      return "better";
+    case ChangeKind::worse:
+      return "worse";
+    case ChangeKind::accepted:
+      return "accepted";
+    case ChangeKind::easier:
+      return "easier";
+    case ChangeKind::other:
+      break;
+  }
+  return "changed";
+}
+
 }  // namespace
 
 ExitStatus run_diff(const DiffOptions& options) {
   const std::string before = certificate_of(options.before, options.quiet);
   const std::string after = certificate_of(options.after, options.quiet);
-  const auto changes = reports::certificate_changes(before, after, rigor::nearest_double(options.tolerance));
-  int better = 0;
-  int worse = 0;
-  for (const auto& [kind, text] : changes) {
-    better += kind == ChangeKind::better ? 1 : 0;
-    worse += kind == ChangeKind::worse ? 1 : 0;
-    fmt::print("{:<8}{}\n",
-               kind == ChangeKind::better  ? "better"
-               : kind == ChangeKind::worse ? "worse"
-                                           : "changed",
-               text);
+  const auto changes = [&] {
+    try {
+      return reports::certificate_changes(before, after, rigor::nearest_double(options.tolerance),
+                                          options.accepted);
+    } catch (const reports::NothingToAccept& error) {
+      throw certificates::InputError("--accept", {}, error.what());
+    }
+  }();
+  for (const auto& change : changes.list) {
+    fmt::print("{:<9}{}\n", word_of(change.kind), change.text);
   }
-  fmt::print("{} better, {} worse\n", better, worse);
+  const int easier = changes.count(ChangeKind::easier);
+  if (easier > 0) {
+    fmt::print("{} better for an easier question, which do not count: {}\n",
+               easier == 1 ? "1 result is" : fmt::format("{} results are", easier),
+               fmt::join(changes.loosened, ", "));
+  }
+  const int worse = changes.count(ChangeKind::worse);
+  const int accepted = changes.count(ChangeKind::accepted);
+  fmt::print("{} better, {} worse{}\n", changes.count(ChangeKind::better), worse,
+             accepted > 0 ? fmt::format(", {} accepted", accepted) : "");
   return worse > 0 ? not_proved : all_proved;
 }
 

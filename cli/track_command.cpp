@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -17,8 +18,11 @@
 #include "certificates/document/tracker_kind.hpp"
 #include "cli/commands.hpp"
 #include "cli/default_folder.hpp"
+#include "reports/recording/assumption_list.hpp"
+#include "reports/recording/findings/recording_examiner.hpp"
 #include "reports/recording/fitting_source.hpp"
 #include "reports/recording/samples/open_recording.hpp"
+#include "reports/recording/samples/overheard_source.hpp"
 #include "reports/recording/track_blocks.hpp"
 #include "reports/recording/track_files.hpp"
 #include "reports/recording/track_table.hpp"
@@ -175,14 +179,24 @@ ExitStatus run_track(const TrackOptions& options) {
       throw certificates::InputError(options.design, {}, error.what());
     }
   }();
-  reports::FittingSource source = reports::fit_channels(reports::open_recording(request_of(options)),
-                                                        tracker.tracker->channels(), tracker.assume);
+  auto heard = std::make_unique<reports::OverheardSource>(reports::open_recording(request_of(options)));
+  reports::OverheardSource& overheard = *heard;
+  const int recorded = std::min(heard->channels(), tracker.tracker->channels());
+  reports::FittingSource source =
+      reports::fit_channels(std::move(heard), tracker.tracker->channels(), tracker.assume);
   reports::TrackReport report;
   report.design = &design;
   report.recording = recording.filename().string();
   report.assume = tracker.assume;
   report.sample_rate = sample_rate_of(options, *source.samples, tracker.assume, report.notes);
   const reports::TrackSettings settings = settings_of(options, report.sample_rate);
+
+  reports::RecordingExaminer examiner(tracker.assume, recorded, report.sample_rate);
+  overheard.listen([&](std::int64_t index, const reports::RecordedSample& sample) {
+    if (settings.from <= index && index < settings.to) {
+      examiner.push(index, sample);
+    }
+  });
 
   std::vector<fs::path> inputs{options.design};
   if (!is_stream) {
@@ -204,6 +218,9 @@ ExitStatus run_track(const TrackOptions& options) {
         },
         std::cref(progress));
   }
+  examiner.finish();
+  report.result.recording = examiner.findings(report.result.scale);
+  report.result.recorded_frequency = examiner.frequency();
   if (table) {
     table->finish();
   }
@@ -225,8 +242,7 @@ ExitStatus run_track(const TrackOptions& options) {
   const reports::TrackResult& result = report.result;
   const bool is_fine = !result.blocks.empty()
                            ? reports::blocks_are_in_lock(result)
-                           : result.first_lock && !result.lost_lock && result.assumptions.judged > 0 &&
-                                 result.assumptions.keeps();
+                           : result.first_lock && !result.lost_lock && reports::keeps_to_tested(report);
   return options.strict && !is_fine ? not_proved : all_proved;
 }
 

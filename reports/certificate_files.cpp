@@ -1,7 +1,5 @@
 #include "reports/certificate_files.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 #include <vector>
 
@@ -41,7 +39,7 @@ Drawing draw(const certificates::Certificate& certificate, std::string& missing)
 CertificateFiles write_certificate_files(const certificates::Certificate& certificate,
                                          const std::filesystem::path& directory,
                                          const std::filesystem::path& design,
-                                         const page::Renderings& renderings) {
+                                         const page::Renderings& renderings, const Verify& verify) {
   CertificateFiles written{directory / "certificate.md", {}};
   page::Document document{"certificate", {}};
   document.figure_folder = "figures/";
@@ -56,11 +54,24 @@ CertificateFiles write_certificate_files(const certificates::Certificate& certif
   options.drawn_with = drawing.drawn_with;
   const std::string json = certificates::to_json(certificate);
   options.certificate_sha256 = certificates::sha256(json);
-  document.markdown = certificates::to_markdown(certificate, options);
-  document.appendix = certificates::to_published_markdown(certificate, options);
-  document.how_to_check = fmt::format(
-      "veritrack-verify certificate.json --design {} --markdown certificate.md{}", certificate.design_file,
-      document.appendix.empty() ? "" : " --markdown published-theorems.md");
+  const auto render = [&](certificates::Verification verification) {
+    options.verification = std::move(verification);
+    document.markdown = certificates::to_markdown(certificate, options);
+    document.appendix = certificates::to_published_markdown(certificate, options);
+  };
+  if (verify) {
+    // What is verified is what will be written: that it was is a line of it.
+    render({certificates::Verification::Outcome::verified});
+    TextsToVerify texts{json, certificate.design_text, {{"certificate.md", document.markdown}}};
+    if (!document.appendix.empty()) {
+      texts.documents.emplace_back("published-theorems.md", document.appendix);
+    }
+    written.verification = verify(texts);
+  }
+  if (written.verification.outcome != certificates::Verification::Outcome::verified) {
+    render(written.verification);
+  }
+  document.how_to_check = certificates::checking_command(certificate);
   stage_document(files, directory, document, renderings);
   if (!document.appendix.empty()) {
     files.stage(directory / "published-theorems.md", document.appendix);

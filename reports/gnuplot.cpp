@@ -1,17 +1,11 @@
 #include "reports/gnuplot.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
+
+#include "reports/program.hpp"
 
 namespace veritrack::reports {
 
@@ -20,53 +14,6 @@ namespace {
 [[noreturn]] void fail(const std::string& what) {
   throw FigureError("figures need gnuplot: " + what);
 }
-
-/// An anonymous file in memory, closed at the end of its life.
-class MemoryFile {
- public:
-  explicit MemoryFile(const char* name) : descriptor_(memfd_create(name, MFD_CLOEXEC)) {
-    if (descriptor_ < 0) {
-      fail(std::string("memfd_create: ") + std::strerror(errno));
-    }
-  }
-  ~MemoryFile() { close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  MemoryFile(MemoryFile&&) = delete;
-  MemoryFile& operator=(MemoryFile&&) = delete;
-
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-
-  void write_all(std::string_view text) const {
-    while (!text.empty()) {
-      const ssize_t written = write(descriptor_, text.data(), text.size());
-      if (written < 0) {
-        fail(std::string("write: ") + std::strerror(errno));
-      }
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-    lseek(descriptor_, 0, SEEK_SET);
-  }
-
-  [[nodiscard]] std::string read_all() const {
-    lseek(descriptor_, 0, SEEK_SET);
-    std::string text;
-    std::array<char, 65536> buffer{};
-    for (;;) {
-      const ssize_t count = read(descriptor_, buffer.data(), buffer.size());
-      if (count < 0) {
-        fail(std::string("read: ") + std::strerror(errno));
-      }
-      if (count == 0) {
-        return text;
-      }
-      text.append(buffer.data(), static_cast<std::size_t>(count));
-    }
-  }
-
- private:
-  int descriptor_;
-};
 
 /// gnuplot repeats the offending line, points at the place, and says last what is wrong.
 std::string last_line(const std::string& text) {
@@ -88,46 +35,19 @@ constexpr std::string_view kAnew =
     "\nreset session\nset terminal svg\nset output '/dev/null'\nset multiplot\nunset multiplot\nset output\n"
     "reset session\n";
 
-struct GnuplotRun {
-  std::string output;
-  std::string errors;
-  bool has_succeeded = false;
-};
-
-GnuplotRun execute(const std::string& script) {
-  const MemoryFile input("gnuplot-script");
-  const MemoryFile output("gnuplot-output");
-  const MemoryFile errors("gnuplot-errors");
-  input.write_all(script);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, output.descriptor(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
-  std::string program = "gnuplot";
-  std::string no_settings = "-d";  // no ~/.gnuplot: the same figure for everyone
-  std::array<char*, 3> arguments{program.data(), no_settings.data(), nullptr};
-  pid_t child = 0;
-  const int spawned = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (spawned != 0) {
-    fail(std::strerror(spawned));
+ProgramRun execute(const std::string& script) {
+  try {
+    return run_program("gnuplot", {"-d"}, script);  // -d: no ~/.gnuplot, the same figure for everyone
+  } catch (const std::system_error& error) {
+    fail(error.code().message());
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) {
-      fail(std::string("waitpid: ") + std::strerror(errno));
-    }
-  }
-  return {output.read_all(), errors.read_all(), WIFEXITED(status) && WEXITSTATUS(status) == 0};
 }
 
 }  // namespace
 
 std::string run_gnuplot(const std::string& script) {
-  GnuplotRun run = execute(script);
-  if (!run.has_succeeded || run.output.empty()) {
+  ProgramRun run = execute(script);
+  if (!run.has_succeeded() || run.output.empty()) {
     fail(last_line(run.errors));
   }
   return std::move(run.output);
@@ -142,7 +62,7 @@ std::vector<std::string> draw_pictures(const std::vector<GnuplotScript>& scripts
     all += all.empty() ? "" : kAnew;
     all += script.text + "\nset print '-'\nprint '" + std::string(kEndOfPicture) + "'\n";
   }
-  const GnuplotRun run = execute(all);
+  const ProgramRun run = execute(all);
   const std::string end = std::string(kEndOfPicture) + '\n';
   std::vector<std::string> pictures;
   std::size_t from = 0;
@@ -154,7 +74,7 @@ std::vector<std::string> draw_pictures(const std::vector<GnuplotScript>& scripts
     pictures.push_back(run.output.substr(from, to - from));
     from = to + end.size();
   }
-  if (!run.has_succeeded || from != run.output.size()) {
+  if (!run.has_succeeded() || from != run.output.size()) {
     fail(last_line(run.errors));
   }
   return pictures;

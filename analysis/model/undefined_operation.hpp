@@ -11,15 +11,17 @@
 
 namespace veritrack::model {
 
-/// The number of the instruction from which it comes that a result of the program is not known, or -1 when
-/// all are known: its operands are. `registers` are those of a run.
+/// The number of the instruction from which it comes that a result or limit of the program is not known, or
+/// -1 when all are known: its operands are. `registers` are those of a run.
 template <typename Scalar, typename IsKnown>
 [[nodiscard]] int first_unknown(const trackers::StraightLineProgram& program,
                                 const std::vector<Scalar>& registers, const IsKnown& is_known) {
   const auto known = [&](int place) { return is_known(registers[static_cast<std::size_t>(place)]); };
   int place = -1;
-  for (const int result : program.results()) {
-    place = place < 0 && !known(result) ? result : place;
+  for (const std::vector<int>* list : {&program.results(), &program.limits()}) {
+    for (const int result : *list) {
+      place = place < 0 && !known(result) ? result : place;
+    }
   }
   while (place >= program.inputs()) {
     const trackers::Instruction& made =

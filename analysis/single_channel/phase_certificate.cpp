@@ -9,6 +9,7 @@
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/sets/controllability.hpp"
 #include "analysis/sets/harder_questions.hpp"
+#include "analysis/sets/lock_limit.hpp"
 #include "analysis/single_channel/phase_promises.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
@@ -133,6 +134,13 @@ Reach reach_of(const PhaseSet& set) {
           hull(level * sqrt(Interval(set.floor.p11)), signal)};
 }
 
+/// Whether there is a set, and the frequency errors in it tell the lock from others.
+bool is_lock(const PhaseQuestion& question, const std::optional<PhaseSet>& found) {
+  return found && sets::excludes_other_locks(Interval(found->claim.assumption.radius) *
+                                                 sqrt(Interval(found->claim.assumption.frequency_variance)),
+                                             question.band);
+}
+
 void set_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set_found,
               sets::ContractionResult& result) {
   const Reach reach = set_found ? reach_of(*set_found) : Reach{};
@@ -145,7 +153,8 @@ void set_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set_
       set_found ? errors_of(question, *set_found).rate() : Interval());
   result.radius.symbol = "R_0";
   set(result.radius, "e' P^{-1} e \\le R_0^2", set_found ? Interval(set_found->start_level) : Interval());
-  set(result.frequency_error_radius, "R_0 \\sqrt{P_{33}}", reach.frequency);
+  set(result.frequency_error_radius, "R_0 \\sqrt{P_{33}}",
+      is_lock(question, set_found) ? reach.frequency : Interval());
   set(result.phase_error_radius, "", reach.phase);
   set(result.amplitude_error_radius, "", reach.amplitude);
 }
@@ -188,9 +197,11 @@ sets::ContractionResult result_of(const PhaseQuestion& question, const PhaseCert
   sets::ContractionResult result;
   set_size(question, certificate.set, result);
   set_promises(question, certificate, result.starts);
-  set(result.largest_noise, "", certificate.noise_set ? certificate.noise_set->noise : Interval(),
+  set(result.largest_noise, "",
+      is_lock(question, certificate.noise_set) ? certificate.noise_set->noise : Interval(),
       "No noise could be certified.");
-  set(result.largest_slew, "", certificate.slew_set ? certificate.slew_set->slew : Interval(),
+  set(result.largest_slew, "",
+      is_lock(question, certificate.slew_set) ? certificate.slew_set->slew : Interval(),
       "No slew could be certified.");
   theorems::Quantity& bias = result.bias_frequency.emplace(sets::quantities::bias_frequency());
   bias.symbol = "\\nu_*";

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "certificates/design/design.hpp"
+#include "certificates/design/key_contract.hpp"
 #include "certificates/design/toml_value.hpp"
 
 namespace veritrack::certificates {
@@ -30,6 +31,7 @@ struct Key {
   /// Checks the value and stores it. Throws InputError. Needs the upward rounding mode.
   void (*read)(const TomlValue& value, Target& target);
   Absence absence;
+  KeyContract contract = {};
 };
 
 /// A key together with the place that it fills.
@@ -38,6 +40,7 @@ struct BoundKey {
   std::string_view allowed;
   std::function<void(const TomlValue&)> read;
   Absence absence;
+  KeyContract contract = {};
 };
 
 /// A table of the file, e.g. [design], and the place that it fills.
@@ -53,7 +56,7 @@ template <typename Target, typename Keys>
   for (const Key<Target>& key : std::span<const Key<Target>>(keys)) {
     table.keys.push_back({key.name, key.allowed,
                           [read = key.read, &target](const TomlValue& value) { read(value, target); },
-                          key.absence});
+                          key.absence, key.contract});
   }
   return table;
 }

@@ -24,6 +24,20 @@ constexpr Absence defaults_to(std::string_view toml) {
   return {Absence::Rule::is_default, toml};
 }
 
+// ---- what a key is to the contract
+
+inline constexpr KeyContract kNoContract{Stronger::neither};
+inline constexpr KeyContract kOnlyEqual{Stronger::only_equal};
+inline constexpr KeyContract kMore{Stronger::larger};
+inline constexpr KeyContract kLess{Stronger::smaller};
+inline constexpr KeyContract kMoreFrequency{Stronger::larger, Measure::frequency};
+inline constexpr KeyContract kLessFrequency{Stronger::smaller, Measure::frequency};
+inline constexpr KeyContract kMoreSlew{Stronger::larger, Measure::slew};
+inline constexpr KeyContract kMoreSamples{Stronger::larger, Measure::samples};
+inline constexpr KeyContract kLessSamples{Stronger::smaller, Measure::samples};
+inline constexpr KeyContract kWider{Stronger::wider};
+inline constexpr KeyContract kWiderBand{Stronger::wider, Measure::frequency};
+
 // ---- limits: true only when certain
 
 inline bool any_number(const Interval& x) {

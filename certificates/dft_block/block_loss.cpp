@@ -50,6 +50,11 @@ const theorems::Quantity* proved_quantity(const theorems::Derivation& found, con
   return found.verdict == Verdict::proved ? theorems::applicable_quantity(found, name) : nullptr;
 }
 
+/// Bins are one apart, and so are the locks about them.
+bool is_lock(const theorems::Quantity& offset_error) {
+  return rigor::certainly_less(offset_error.value, Interval(0.5));
+}
+
 /// What a derivation in Gaussian noise says, after its hypotheses; none when that is nothing.
 std::optional<Claim> losing_lock(const char* id, const theorems::Derivation& found,
                                  const BlockTables& tables) {
@@ -57,7 +62,7 @@ std::optional<Claim> losing_lock(const char* id, const theorems::Derivation& fou
   const theorems::Quantity* error = proved_quantity(found, "offset_error_bound");
   const theorems::Quantity* rms = proved_quantity(found, "rms_offset_error");
   if (probability == nullptr || error == nullptr || rms == nullptr ||
-      !rigor::certainly_less(probability->value, Interval(1.0))) {
+      !rigor::certainly_less(probability->value, Interval(1.0)) || !is_lock(*error)) {
     return std::nullopt;
   }
   Claim claim;
@@ -135,7 +140,8 @@ void add_block_loss_claims(Certificate& certificate) {
   if (const auto& below = tables.require.probability_of_losing_lock_below) {
     Claim needed =
         required_claim("dft-block/probability-of-losing-lock",
-                       fmt::format("within the first {} blocks lock is lost with a probability below {}",
+                       fmt::format("within the first {} blocks lock is lost, the offset error exceeding "
+                                   "half a bin, with a probability below {}",
                                    blocks, below->text),
                        hypotheses, *below);
     needed.reason = open_ground(found);

@@ -47,7 +47,7 @@ std::string block_noise_words(const BlockTables& tables) {
       "to "
       "block and from bin to bin, with independent real and imaginary parts of a deviation of at most {} "
       "each: "
-      "that of blocks of {} samples with white noise and {}",
+      "that of the bins between 0 and T/2 of blocks of T = {} samples with white noise and {}",
       rigor::lower_decimal(bin_deviation(tables), kDigits), tables.design.block_length->text,
       assume.gaussian->snr_db ? fmt::format("an SNR of at least {} dB", assume.gaussian->snr_db->text)
                               : fmt::format("a deviation of at most {}", assume.gaussian->deviation->text));

@@ -1,4 +1,6 @@
 // The keys of a design file for the tracker "dft-block-ekf".
+#include <fmt/format.h>
+
 #include <array>
 #include <limits>
 
@@ -105,51 +107,54 @@ void settles_within_blocks(const TomlValue& value, BlockRequirements& require) {
 
 using Chosen = BlockDesignTable;
 constexpr std::array kBlockDesignKeys{
-    Key<Chosen>{"q1", kPositive, real<&Chosen::q1, positive>, kRequired},
-    Key<Chosen>{"q2", kPositive, real<&Chosen::q2, positive>, kRequired},
-    Key<Chosen>{"q3", kPositive, real<&Chosen::q3, positive>, kRequired},
-    Key<Chosen>{"r", kPositive, real<&Chosen::r, positive>, kRequired},
-    Key<Chosen>{"half_width", "a whole number from 1 to 8", half_width, defaults_to("2")},
-    Key<Chosen>{"block_length", "a whole number of samples from 4 to 1e9",
-                whole_samples<&Chosen::block_length, 4>, kOptional},
-    Key<Chosen>{"centre", "a whole number from 1 to 1e9", whole_samples<&Chosen::centre, 1>, kOptional},
+    Key<Chosen>{"q1", kPositive, real<&Chosen::q1, positive>, kRequired, kNoContract},
+    Key<Chosen>{"q2", kPositive, real<&Chosen::q2, positive>, kRequired, kNoContract},
+    Key<Chosen>{"q3", kPositive, real<&Chosen::q3, positive>, kRequired, kNoContract},
+    Key<Chosen>{"r", kPositive, real<&Chosen::r, positive>, kRequired, kNoContract},
+    Key<Chosen>{"half_width", "a whole number from 1 to 8", half_width, defaults_to("2"), kNoContract},
+    Key<Chosen>{"block_length", "a whole number of samples from 7 to 1e9",
+                whole_samples<&Chosen::block_length, 7>, kOptional, kOnlyEqual},
+    Key<Chosen>{"centre", "a whole number from 2 to 1e9", whole_samples<&Chosen::centre, 2>, kOptional,
+                kOnlyEqual},
 };
 using Assumed = BlockAssumptions;
 constexpr std::array kBlockAssumeKeys{
     Key<Assumed>{"amplitude", "a number above 0, or [lowest, highest] of two", block_amplitude,
-                 defaults_to("1")},
-    Key<Assumed>{"offset", "[lowest, highest], two numbers of bins from -8 to 8", block_offset, kRequired},
-    Key<Assumed>{"noise", kNoiseThatMayBeGaussian, block_noise, kRequired},
-    Key<Assumed>{"blocks", kSamplesOfProbability, probability_blocks, kOptional},
-    Key<Assumed>{"slew", kNotNegative, real<&Assumed::slew, not_negative>, defaults_to("0")},
+                 defaults_to("1"), kWider},
+    Key<Assumed>{"offset", "[lowest, highest], two numbers of bins from -8 to 8", block_offset, kRequired,
+                 kWider},
+    Key<Assumed>{"noise", kNoiseThatMayBeGaussian, block_noise, kRequired, kContractOfNoise},
+    Key<Assumed>{"blocks", kSamplesOfProbability, probability_blocks, kOptional, kMore},
+    Key<Assumed>{"slew", kNotNegative, real<&Assumed::slew, not_negative>, defaults_to("0"), kMore},
     Key<Assumed>{"initial_amplitude_error", kAtLeastZeroBelowOne,
-                 real<&Assumed::initial_amplitude_error, at_least_zero_below_one>, kRequired},
+                 real<&Assumed::initial_amplitude_error, at_least_zero_below_one>, kRequired, kMore},
     Key<Assumed>{"initial_phase_error", kNotNegative, real<&Assumed::initial_phase_error, not_negative>,
-                 kRequired},
+                 kRequired, kMore},
     Key<Assumed>{"initial_offset_error", kNotNegative, real<&Assumed::initial_offset_error, not_negative>,
-                 kRequired},
+                 kRequired, kMore},
     Key<Assumed>{"initial_covariance",
                  "\"steady-state\", or a symmetric array of three arrays of three numbers", block_covariance,
-                 defaults_to("\"steady-state\"")},
+                 defaults_to("\"steady-state\""), kWider},
 };
 using Required = BlockRequirements;
 constexpr std::array kBlockRequireKeys{
     Key<Required>{"offset_error_below", kPositive, block_requirement<&Required::offset_error_below>,
-                  kOptional},
+                  kOptional, kLess},
     Key<Required>{"settles_within", "a whole number of blocks, 1 or more; with settled_below",
-                  settles_within_blocks, kOptional},
+                  settles_within_blocks, kOptional, kLess},
     Key<Required>{"settled_below", "a number above 0; with settles_within",
-                  block_requirement<&Required::settled_below>, kOptional},
+                  block_requirement<&Required::settled_below>, kOptional, kLess},
     Key<Required>{"probability_of_losing_lock_below", "a number above 0 and below 1; with Gaussian noise",
-                  block_probability, kOptional},
+                  block_probability, kOptional, kLess},
 };
 using Simulated = BlockSimulation;
 constexpr std::int64_t kMostBlocks = 100'000;
 constexpr std::array kBlockSimulateKeys{
     Key<Simulated>{"blocks", "a whole number from 1 to 100000", integer<&Simulated::blocks, 1, kMostBlocks>,
-                   defaults_to("60")},
+                   defaults_to("60"), kNoContract},
     Key<Simulated>{"seed", "a whole number, 0 or more",
-                   integer<&Simulated::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1")},
+                   integer<&Simulated::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1"),
+                   kNoContract},
 };
 
 std::vector<BoundTable> bind_block_tables(std::any& tables) {
@@ -189,10 +194,34 @@ std::optional<TableObjection> objection_to_noise(const BlockTables& read) {
                                : "probability_of_losing_lock_below with a bound on the noise; allowed: "
                                  "with Gaussian noise"};
   }
-  if (read.design.centre && !read.design.block_length) {
-    return TableObjection{"design", "centre without block_length; allowed: both, or block_length alone"};
-  }
   return std::nullopt;
+}
+
+/// White noise is independent from bin to bin strictly between bin 0 and bin T/2: those two are real, and bin
+/// T - m is the conjugate of bin m. Without a centre, M = L + 1 is the lowest for which all bins are there.
+std::optional<TableObjection> objection_to_bins(const BlockDesignTable& design) {
+  if (!design.block_length) {
+    return design.centre ? std::optional(TableObjection{
+                               "design", "centre without block_length; allowed: both, or block_length alone"})
+                         : std::nullopt;
+  }
+  const Interval width = design.half_width.value;
+  const Interval centre = design.centre ? design.centre->value : width + Interval(1.0);
+  if (rigor::certainly_less(width, centre) &&
+      rigor::certainly_less(Interval(2.0) * (centre + width), design.block_length->value)) {
+    return std::nullopt;
+  }
+  return TableObjection{
+      "design",
+      fmt::format("the bins M - L ... M + L, {}, are not all between 1 and half of block_length = {}, where "
+                  "white noise is independent from bin to bin; allowed: {}",
+                  design.centre
+                      ? fmt::format("{} - {} ... {} + {}", design.centre->text, design.half_width.text,
+                                    design.centre->text, design.half_width.text)
+                      : fmt::format("2*{} + 1 of them", design.half_width.text),
+                  design.block_length->text,
+                  design.centre ? "half_width < centre < block_length/2 - half_width"
+                                : "block_length > 4 half_width + 2")};
 }
 
 std::optional<TableObjection> block_objection(const std::any& tables) {
@@ -204,6 +233,9 @@ std::optional<TableObjection> block_objection(const std::any& tables) {
     return TableObjection{"assume",
                           "initial_covariance \"steady-state\" with a range of amplitudes, each of which has "
                           "another; allowed: a matrix"};
+  }
+  if (auto objection = objection_to_bins(read.design)) {
+    return objection;
   }
   return objection_to_noise(read);
 }

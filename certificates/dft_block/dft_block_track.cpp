@@ -1,7 +1,5 @@
 #include "certificates/dft_block/dft_block_track.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -116,14 +114,6 @@ TrackerOnSamples track_dft_block(const Design& design) {
   const rigor::NearestRounding nearest;
   const double length = tables.design.block_length->nearest;
   const double centre = tables.design.centre->nearest;
-  const double half_width = tables.design.half_width.nearest;
-  if (!(half_width < centre) || !(2.0 * (centre + half_width) < length)) {
-    throw NotTrackable(
-        fmt::format("the bins {} - {} to {} + {} of blocks of {} samples are not all between 1 and "
-                    "half the length of a block",
-                    tables.design.centre->text, tables.design.half_width.text, tables.design.centre->text,
-                    tables.design.half_width.text, tables.design.block_length->text));
-  }
   const BlockAssumptions& assume = tables.assume;
   TrackerOnSamples result;
   result.tracker = std::make_unique<BlocksOfSamples>(tables);
@@ -134,6 +124,11 @@ TrackerOnSamples track_dft_block(const Design& design) {
     result.assume.noise_deviation =
         nearest_deviation(*assume.gaussian, assume.amplitude[0]) * assume.amplitude[0].nearest;
   }
+  result.assume.start = {
+      fmt::format("offset off by at most {} bins", assume.initial_offset_error.text),
+      fmt::format("phase off by at most {} rad", assume.initial_phase_error.text),
+      fmt::format("amplitude off by at most a part of {}", assume.initial_amplitude_error.text),
+  };
   result.assume.slew = kTurn * assume.slew.nearest / (length * length);
   return result;
 }

@@ -1,7 +1,6 @@
 #include "certificates/dft_block/initial_landing.hpp"
 
 #include <Eigen/LU>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -17,14 +16,6 @@ namespace veritrack::certificates {
 namespace {
 
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
-constexpr double kRisk = 0.005;
-
-CountedShare counted(std::int64_t count, std::int64_t starts) {
-  using Binomial = boost::math::binomial_distribution<>;
-  const auto n = static_cast<double>(starts);
-  const auto k = static_cast<double>(count);
-  return {count, Binomial::find_lower_bound_on_p(n, k, kRisk), Binomial::find_upper_bound_on_p(n, k, kRisk)};
-}
 
 /// The set in which errors have to be.
 struct ErrorSet {
@@ -87,8 +78,8 @@ std::vector<InitialLanding> simulate_initial_landing(const Certificate& certific
       near += std::fabs(error) < 0.5 ? 1 : 0;
       in_set += (set.into * z).norm() <= set.radius ? 1 : 0;
     }
-    result.push_back({-10.0 * std::log10(2.0 * relative * relative), kStarts, counted(near, kStarts),
-                      counted(in_set, kStarts)});
+    result.push_back({-10.0 * std::log10(2.0 * relative * relative), kStarts, counted_share(near, kStarts),
+                      counted_share(in_set, kStarts)});
   }
   return result;
 }

@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/counted_share.hpp"
 
 namespace veritrack::certificates {
-
-/// A frequency, and Clopper and Pearson's limits of the probability, each of which it misses with a
-/// probability of at most 0.005.
-struct CountedShare {
-  std::int64_t count = 0;
-  double low = 0.0, high = 1.0;
-};
 
 /// For one signal-to-noise ratio.
 struct InitialLanding {

@@ -17,8 +17,8 @@ std::string block_filter_section(const Certificate& certificate) {
   const Design& design = certificate.design;
   const BlockTables& tables = block_tables(design);
   std::string text = "## The tracker\n\n";
-  text += fmt::format("{} — tracker `{}`", markdown::escaped(design.name), design.tracker);
-  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", markdown::escaped(design.source));
+  text += fmt::format("{}The tracker is `{}`.\n\n", markdown::quotation(design.name, design.source),
+                      design.tracker);
   text += fmt::format(
       "The filter of chapter 4 of La Scala's thesis sees {} bins of the Fourier transform of each block of "
       "$`T`$ "
@@ -90,7 +90,7 @@ std::string false_lock_section(const Certificate& certificate) {
 }
 
 /// "1234 (61.2 to 66.1 %)"
-std::string counted_share(const CountedShare& share) {
+std::string share_text(const CountedShare& share) {
   return fmt::format("{} ({:.2f} to {:.2f} %)", share.count, 100.0 * share.low, 100.0 * share.high);
 }
 
@@ -102,8 +102,7 @@ std::string landing_section(const Certificate& certificate) {
   std::vector<std::vector<std::string>> rows;
   rows.reserve(landings.size());
   for (const InitialLanding& one : landings) {
-    rows.push_back(
-        {fmt::format("{:.4g} dB", one.snr_db), counted_share(one.near), counted_share(one.in_set)});
+    rows.push_back({fmt::format("{:.4g} dB", one.snr_db), share_text(one.near), share_text(one.in_set)});
   }
   return fmt::format(
              "## Where the initialisation lands\n\n*Sampled*, not proved: {} starts each by (4.35) and "

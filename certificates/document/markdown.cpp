@@ -1,6 +1,7 @@
 #include "certificates/document/markdown.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -83,11 +84,39 @@ std::string checker_section(const Certificate& certificate, const MarkdownOption
          sentences(certificate, false);
 }
 
+/// Whether the certificate was verified, and how to do it again.
+std::string verification_paragraph(const Certificate& certificate, const Verification& verification) {
+  constexpr std::string_view kChecker = "`veritrack-verify` " VERITRACK_VERSION;
+  std::string text;
+  switch (verification.outcome) {
+    case Verification::Outcome::left_out:
+      text = "*Not verified* when this document was written. To verify it:";
+      break;
+    case Verification::Outcome::verified:
+      text = fmt::format(
+          "*Verified* by {}, which shares no code with the program that wrote this document. To repeat it:",
+          kChecker);
+      break;
+    case Verification::Outcome::refused:
+      text = fmt::format("*NOT VERIFIED*: {} gave no answer.", kChecker);
+      if (verification.failure.empty()) {
+        std::vector<std::string> names;
+        for (const RefusedPart& part : verification.refused) {
+          names.push_back(escaped(part.name));
+        }
+        text = fmt::format("*NOT VERIFIED*: {} refuses {} of {} parts: {}.", kChecker, names.size(),
+                           verification.parts, fmt::join(names, "; "));
+      }
+      text += " One of the two programs is wrong: rely on nothing in this document. To repeat it:";
+  }
+  return text + "\n\n" + markdown::fenced(checking_command(certificate), "") + "\n";
+}
+
 std::string reproduction_section(const Certificate& certificate, const MarkdownOptions& options) {
+  const std::string file = markdown::file_name(certificate.design_file);
   std::string text = "## How to reproduce it\n\n";
-  text += fmt::format("Save the design file below as `{}` and run\n\n", certificate.design_file);
-  text += markdown::fenced(
-      "veritrack certify " + certificate.design_file + (certificate.formal_proofs ? " --coq" : ""), "");
+  text += fmt::format("Save the design file below as `{}` and run\n\n", file);
+  text += markdown::fenced("veritrack certify " + file + (certificate.formal_proofs ? " --coq" : ""), "");
   text += certificate.deadline.has_struck()
               ? "\nThis run was stopped by the time limit of `--timeout`. Without it the same file gives the "
                 "same bytes. "
@@ -103,15 +132,15 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
     rows.push_back({"figures", escaped(options.drawn_with)});
   }
   text += markdown::table({"Software", "Version"}, rows) + "\n";
-  return text + fmt::format("`{}`:\n\n", certificate.design_file) +
-         markdown::fenced(certificate.design_text, "toml");
+  return text + fmt::format("`{}`:\n\n", file);
 }
 
 }  // namespace
 
-std::string headline(const Certificate& certificate) {
+std::string headline(const Certificate& certificate, const Verification& verification) {
+  const std::string refused = verification.outcome == Verification::Outcome::refused ? "NOT VERIFIED. " : "";
   if (!certificate.verdict) {
-    return "Nothing is required of this design";
+    return refused + "Nothing is required of this design";
   }
   std::string text;
   for (const Claim& claim : certificate.claims) {
@@ -120,7 +149,13 @@ std::string headline(const Certificate& certificate) {
       text += upper_case(rigor::to_string(claim.verdict)) + ": " + claim.requirement;
     }
   }
-  return (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
+  return refused + (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
+}
+
+std::string checking_command(const Certificate& certificate) {
+  return fmt::format("veritrack-verify certificate.json --full --design {} --markdown certificate.md{}",
+                     certificate.design_file,
+                     has_published(certificate) ? " --markdown published-theorems.md" : "");
 }
 
 std::string picture(const FigureReference& figure) {
@@ -131,12 +166,11 @@ std::string to_published_markdown(const Certificate& certificate, const Markdown
   if (!has_published(certificate)) {
     return "";
   }
-  return fmt::format(
+  return markdown::plain(
              "# What published theorems say of this design\n\nBeside [certificate.md](certificate.md), for "
-             "the "
-             "design {}. No requirement and no guarantee of that certificate depends on anything here.\n\n",
-             escaped(certificate.design.name)) +
-         kind_of(certificate.design).published(certificate) +
+             "the same design. No requirement and no guarantee of that certificate depends on anything "
+             "here.\n\n" +
+             kind_of(certificate.design).published(certificate)) +
          fmt::format(
              "## What the checker verifies\n\n`veritrack-verify certificate.json --markdown "
              "published-theorems.md` verifies these sentences from `certificate.json` (SHA-256 `{}`), and "
@@ -155,10 +189,13 @@ std::string to_markdown(const Certificate& certificate, const MarkdownOptions& o
                                     "reached in time is UNDECIDED, "
                                     "and another run may reach more or less.\n\n"
                                   : "";
-  return "# " + headline(certificate) + "\n\n" + stopped + kind.summary(certificate) +
-         requirement_section(certificate) + kind.sections(certificate, options) +
-         checker_section(certificate, options) + formal_proofs_section(certificate) +
-         reproduction_section(certificate, options);
+  return markdown::plain("# " + headline(certificate, options.verification) + "\n\n" + stopped +
+                         kind.summary(certificate) +
+                         verification_paragraph(certificate, options.verification) +
+                         requirement_section(certificate) + kind.sections(certificate, options) +
+                         checker_section(certificate, options) + formal_proofs_section(certificate) +
+                         reproduction_section(certificate, options)) +
+         markdown::fenced(certificate.design_text, "toml");
 }
 
 }  // namespace veritrack::certificates

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/document/verification.hpp"
 
 namespace veritrack::certificates {
 
@@ -21,6 +22,7 @@ struct MarkdownOptions {
   std::string certificate_sha256;  ///< of certificate.json beside the document
   std::string
       drawn_with;  ///< name and version of the program that drew the figures; empty when there are none
+  Verification verification = {};  ///< of the certificate and this document
 };
 
 /// The whole document. Same certificate and options, same bytes: no times, hosts or paths.
@@ -33,7 +35,11 @@ struct MarkdownOptions {
 /// The figure in a document: the picture, and its caption below.
 [[nodiscard]] std::string picture(const FigureReference& figure);
 
-/// The document's first line, without mark-up: what was required, and the verdict on it.
-[[nodiscard]] std::string headline(const Certificate& certificate);
+/// The document's first line, without mark-up: what was required, and the verdict on it. Of a certificate
+/// that the checker refuses it says so first.
+[[nodiscard]] std::string headline(const Certificate& certificate, const Verification& verification = {});
+
+/// The command with which the checker verifies the certificate, with the design file and the documents.
+[[nodiscard]] std::string checking_command(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

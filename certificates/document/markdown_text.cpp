@@ -1,6 +1,7 @@
 #include "certificates/document/markdown_text.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "analysis/rigor/decimal.hpp"
 
@@ -74,6 +75,44 @@ std::string escaped(std::string_view text) {
     result += letter;
   }
   return result;
+}
+
+std::string quotation(std::string_view name, std::string_view source) {
+  return "> " + escaped(name) + (source.empty() ? "" : ", from: " + escaped(source)) + "\n\n";
+}
+
+std::string plain(std::string_view document) {
+  constexpr std::array<std::string_view, 18> kOther{"—", "–", "²", "∈", "≈", "≤", "≥", "±", "·",
+                                                    "×", "→", "−", "π", "é", "°", "µ", "α", "ε"};
+  const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  std::string result;
+  for (std::size_t i = 0; i < document.size();) {
+    const bool begins_line = i == 0 || document[i - 1] == '\n';
+    std::size_t end = i + 1;
+    if (begins_line && document.substr(i).starts_with("> ")) {
+      end = std::min(document.find('\n', i), document.size());
+      result += document.substr(i, end - i);
+    } else {
+      while (end < document.size() && !begins_character(document[end])) {
+        ++end;
+      }
+      const std::string_view character = document.substr(i, end - i);
+      const bool is_plain = character == "\n" ||
+                            (character.size() == 1 && character[0] >= ' ' && character[0] < '\x7f') ||
+                            std::find(kOther.begin(), kOther.end(), character) != kOther.end();
+      result += is_plain ? character : "?";
+    }
+    i = end;
+  }
+  return result;
+}
+
+std::string file_name(std::string_view name) {
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("._-").find(c) != std::string_view::npos;
+  });
+  return is_plain ? std::string(name) : "design.toml";
 }
 
 namespace {

@@ -37,6 +37,19 @@ namespace veritrack::certificates::markdown {
 /// Text from the user, with everything escaped that Markdown would interpret.
 [[nodiscard]] std::string escaped(std::string_view text);
 
+/// The name and source of a design in a line of their own: "> name, from: source". The checker compares it
+/// with the certificate; the only line, but for the design file, in which any letter may stand.
+[[nodiscard]] std::string quotation(std::string_view name, std::string_view source);
+
+/// A document in which characters that the checker takes for none of ours, a user's, are question marks;
+/// lines that quote stay as they are. Those that may stand beyond ASCII are in
+/// checker/document/plain_markdown.cpp.
+[[nodiscard]] std::string plain(std::string_view document);
+
+/// The name of a file as a document may write it: "design.toml" for one with other characters than letters,
+/// digits, '.', '_' and '-'.
+[[nodiscard]] std::string file_name(std::string_view name);
+
 /// A table; every row must have as many cells as the header. Bars within a cell are escaped.
 [[nodiscard]] std::string table(const std::vector<std::string>& header,
                                 const std::vector<std::vector<std::string>>& rows);

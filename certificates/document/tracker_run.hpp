@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace veritrack::certificates {
 
@@ -65,6 +68,13 @@ class TrackerRun {
   [[nodiscard]] virtual std::span<const TrackedBlock> blocks() const { return {}; }
 };
 
+/// A part of a periodic signal of amplitude 1: value e^{i order phi} of both channels together, or the real
+/// part of that with one channel.
+struct Harmonic {
+  int order = 1;
+  std::complex<double> value = 1.0;
+};
+
 /// What a design assumes of its signal, in doubles: for a comparison with a recording.
 struct SignalAssumptions {
   std::array<double, 2> amplitude{1, 1};  ///< [least, largest], signal units
@@ -74,6 +84,10 @@ struct SignalAssumptions {
   std::optional<double> noise_deviation;  ///< of each channel, signal units; where the noise is Gaussian
   std::optional<double> slew;             ///< rad/sample per sample, at most; none with a `frequency_walk`
   std::optional<double> sample_rate;      ///< Hz; where the design says it
+  std::optional<double> samples;          ///< for how many a probability is asked
+  std::vector<Harmonic> signal = std::vector<Harmonic>(1);  ///< a tone, or that of the design's formulas
+  bool has_signal_key = false;                              ///< whether the design file could give formulas
+  std::vector<std::string> start;                           ///< what is assumed of the start, a phrase each
 };
 
 /// Thrown for a design whose tracker cannot be run on samples: what() says what is missing.

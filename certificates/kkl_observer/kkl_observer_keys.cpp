@@ -70,22 +70,28 @@ void disturbance(const TomlValue& value, KklAssumptions& assume) {
   assume.disturbance = disturbance;
 }
 
+constexpr std::array kFormsOfDisturbance{MemberContract{"bound", Stronger::larger},
+                                         MemberContract{"amplitude", Stronger::larger},
+                                         MemberContract{"frequency", Stronger::only_equal}};
+constexpr KeyContract kContractOfDisturbance{Stronger::larger, Measure::plain, kFormsOfDisturbance};
+
 constexpr std::string_view kRange = "[lowest, highest], 0 < lowest <= highest";
 
 constexpr std::array kDesignKeys{
     Key<KklDesignTable>{"lambda", "an array of four to eight distinct numbers above 0 (1/s)", lambda,
-                        kRequired},
-    Key<KklDesignTable>{"ell", kPositive, ell, kOptional},
-    Key<KklDesignTable>{"sampling_interval", "a number of seconds above 0", sampling_interval, kOptional},
+                        kRequired, kNoContract},
+    Key<KklDesignTable>{"ell", kPositive, ell, kOptional, kNoContract},
+    Key<KklDesignTable>{"sampling_interval", "a number of seconds above 0", sampling_interval, kOptional,
+                        kOnlyEqual},
 };
 constexpr std::array kAssumeKeys{
     Key<KklAssumptions>{"frequency", "[lowest, highest] in rad/s, 0 < lowest <= highest", frequency,
-                        kRequired},
-    Key<KklAssumptions>{"amplitude", kRange, amplitude, kRequired},
+                        kRequired, kWider},
+    Key<KklAssumptions>{"amplitude", kRange, amplitude, kRequired, kWider},
     Key<KklAssumptions>{"disturbance",
                         "{ bound = ... } or { amplitude = ..., frequency = ... }, each a number above 0 (the "
                         "frequency in rad/s)",
-                        disturbance, kOptional},
+                        disturbance, kOptional, kContractOfDisturbance},
 };
 
 /// A requirement, a number above 0.
@@ -95,11 +101,11 @@ void requirement(const TomlValue& value, KklRequirements& require) {
 }
 constexpr std::array kRequireKeys{
     Key<KklRequirements>{"frequency_error_below", kPositive,
-                         requirement<&KklRequirements::frequency_error_below>, kOptional},
+                         requirement<&KklRequirements::frequency_error_below>, kOptional, kLess},
     Key<KklRequirements>{"amplitude_error_below", kPositive,
-                         requirement<&KklRequirements::amplitude_error_below>, kOptional},
+                         requirement<&KklRequirements::amplitude_error_below>, kOptional, kLess},
     Key<KklRequirements>{"settles_within", "a number of seconds above 0",
-                         requirement<&KklRequirements::settles_within>, kOptional},
+                         requirement<&KklRequirements::settles_within>, kOptional, kLess},
 };
 
 std::vector<BoundTable> bind_tables(std::any& tables) {

@@ -115,6 +115,7 @@ TrackerOnSamples kkl_observer_on_samples(const Design& design) {
   }
   assume.slew = 0.0;
   assume.sample_rate = 1.0 / interval;
+  assume.start = {"the filters have settled"};
   return {run_of(tables, ell), assume};
 }
 

@@ -15,7 +15,6 @@ namespace veritrack::certificates {
 
 namespace {
 
-using markdown::escaped;
 using markdown::math;
 
 std::string code(const Number& number) {
@@ -29,8 +28,8 @@ std::string range(const std::array<Number, 2>& bounds) {
 std::string design_section(const Certificate& certificate, const KklObserverTables& tables) {
   const Design& design = certificate.design;
   std::string text = "## The design and what is assumed\n\n";
-  text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
-  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  text += fmt::format("{}The tracker is `{}`.\n\n", markdown::quotation(design.name, design.source),
+                      design.tracker);
   std::string rates;
   for (const Number& rate : tables.design.lambda) {
     rates += (rates.empty() ? "" : ", ") + code(rate);

@@ -61,10 +61,9 @@ std::string states_of(const ModelTable& table, std::size_t states) {
 std::string design_section(const Certificate& certificate, const ModelTables& tables, const Model& model) {
   const Design& design = certificate.design;
   const auto& [table, assume, require] = tables;
-  std::string text =
-      "## The design and what is assumed\n\n" +
-      fmt::format("{} — a recursion of the design file, tracker `{}`", escaped(design.name), design.tracker);
-  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  const std::string text = fmt::format(
+      "## The design and what is assumed\n\n{}The tracker is a recursion of the design file (`{}`).\n\n",
+      markdown::quotation(design.name, design.source), design.tracker);
   std::vector<std::vector<std::string>> rows{
       {table.samples.size() == 1 ? "sample" : "samples, in phase and in quadrature", listed(table.samples),
        "signal units"},
@@ -135,11 +134,11 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
   return text + markdown::table({"What", "Is", "Unit"}, rows) + "\n";
 }
 
-std::string recursion_section(const Certificate& certificate, const Model& model) {
+std::string recursion_section(const Model& model) {
   return "## The recursion\n\nWhat is certified is this recursion. `veritrack show` prints it as C, Python "
          "or "
          "Octave, too, for comparison with the program that you run.\n\n" +
-         markdown::fenced(recursion_text(model, certificate.design.name, CodeLanguage::formulas), "") + "\n";
+         markdown::fenced(recursion_text(model, "the recursion", CodeLanguage::formulas), "") + "\n";
 }
 
 std::string coverage_section(const ModelTables& tables, bool bounds_covariance) {
@@ -205,8 +204,7 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   const Model model = make_model(tables.model, tables.assume.signal);
   return design_section(certificate, tables, model) + model_lock_section(certificate) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
-         recursion_section(certificate, model) +
-         coverage_section(tables, model_sets(certificate).bounds_covariance);
+         recursion_section(model) + coverage_section(tables, model_sets(certificate).bounds_covariance);
 }
 
 }  // namespace veritrack::certificates

@@ -69,7 +69,7 @@ class ModelClaims {
       }
       add(claim);
     }
-    if (const Scope scope = scope_of(*deciding_); scope.is_any && captures_start()) {
+    if (const Scope scope = scope_of(*deciding_); scope.is_any && captures_start() && deciding_->is_lock()) {
       add_capture(*sets_->capture, scope.part);
     }
     if (const auto limits = limits_of(*sets_, tables_->assume)) {
@@ -120,24 +120,31 @@ class ModelClaims {
       add(captured(*number));
     }
     if (const auto& number = sets.largest_noise_at_least) {
-      Claim claim = required("model/largest-noise", *number, words_.constant_tone(),
-                             "the tracker tolerates noise up to {}: a certified invariant set exists");
-      decide_size(claim, largest_noise(*sets_).size, *number, "The largest noise that was proved is {}",
+      const auto say = [&](const std::string& in_lock) {
+        return required("model/largest-noise", *number, words_.constant_tone(),
+                        "the tracker tolerates noise up to {}: a certified invariant set exists" + in_lock);
+      };
+      decide_size(say, largest_noise(*sets_), *number, "The largest noise that was proved is {}",
                   objection_to_size(sets_->noise, &model::TubeSet::noise, "noise"));
     }
     if (const auto& number = sets.largest_slew_at_least) {
-      Claim claim =
-          required("model/largest-slew", *number,
-                   words_.tone_with("a frequency that stays in " + words_.band()) + ", without noise",
-                   "the tracker tolerates a slew up to {}: a certified invariant set exists", slew_words);
-      decide_size(claim, largest_slew(*sets_).size, *number, "The largest slew that was proved is {}",
+      const auto say = [&](const std::string& in_lock) {
+        return required("model/largest-slew", *number,
+                        words_.tone_with("a frequency that stays in " + words_.band()) + ", without noise",
+                        "the tracker tolerates a slew up to {}: a certified invariant set exists" + in_lock,
+                        slew_words);
+      };
+      decide_size(say, largest_slew(*sets_), *number, "The largest slew that was proved is {}",
                   objection_to_size(sets_->slew, &model::TubeSet::slew, "slew"));
     }
     if (const auto& number = sets.frequency_error_radius_at_least) {
-      Claim claim = required("model/frequency-error-radius", *number, assumed,
-                             "a certified invariant set contains frequency errors up to {} at every phase",
-                             frequency_words);
-      decide_size(claim, covers_assumptions() ? deciding_->reach : 0.0, *number,
+      const auto say = [&](const std::string& in_lock) {
+        return required(
+            "model/frequency-error-radius", *number, assumed,
+            "a certified invariant set" + in_lock + " contains frequency errors up to {} at every phase",
+            frequency_words);
+      };
+      decide_size(say, {covers_assumptions() ? deciding_->reach : 0.0, deciding_}, *number,
                   "The certified set reaches {} rad/sample", assumption_objection());
     }
     const std::string settled = words_.constant_tone() + ", without noise, " + words_.started_in("starts");
@@ -212,17 +219,19 @@ class ModelClaims {
   void add_limits(const ModelLimits& limits) {
     Claim claim = told("model/limits", words_for(limits.part).constant_tone());
     const std::string noise = below(limits.noise.size);
-    claim.values = {{"noise", noise}};
+    claim.values = {{"noise", noise}, {"frequency_error", above(limits.noise.set->frequency_error)}};
     claim.statement +=
-        fmt::format(", the tracker tolerates noise up to {}{}", noise, by_set(*limits.noise.set, "noise"));
+        fmt::format(", the tracker tolerates noise up to {}{}: a certified invariant set exists{}", noise,
+                    by_set(*limits.noise.set, "noise"), in_lock(*limits.noise.set));
     if (limits.reach.set != nullptr) {
       const std::string reach = below(limits.reach.size);
+      const std::string within = above(limits.reach.set->frequency_error);
       claim.values.emplace_back("reach", reach);
+      claim.values.emplace_back("reach_frequency_error", within);
       claim.statement += fmt::format(
-          ", and without noise a certified invariant set contains frequency errors up to {} at every phase",
-          units_.at_least(reach));
-    } else {
-      claim.statement += ": a certified invariant set exists";
+          ", and without noise a certified invariant set in which it stays at or below {} contains frequency "
+          "errors up to {} at every phase",
+          units_.at_most(within), units_.at_least(reach));
     }
     add_part(claim, limits.part);
     add(claim);
@@ -233,7 +242,7 @@ class ModelClaims {
     Claim claim = told("model/slew-limit", words.tone_with("a frequency that stays in " + words.band()));
     const ModelSet& set = *limit.slew.set;
     const std::string slew = below(limit.slew.size);
-    claim.values = {{"slew", slew}};
+    claim.values = {{"slew", slew}, {"frequency_error", above(set.frequency_error)}};
     if (set.tubes.noise > 0.0) {
       const std::string noise = below(set.tubes.noise);
       claim.values.emplace_back("noise", noise);
@@ -242,8 +251,8 @@ class ModelClaims {
       claim.statement += ", without noise";
     }
     claim.statement +=
-        fmt::format(", the tracker tolerates a slew up to {}{}: a certified invariant set exists",
-                    units_.slew(slew), by_set(set, "slew"));
+        fmt::format(", the tracker tolerates a slew up to {}{}: a certified invariant set exists{}",
+                    units_.slew(slew), by_set(set, "slew"), in_lock(set));
     add_part(claim, limit.part);
     add(claim);
   }
@@ -294,17 +303,35 @@ class ModelClaims {
     }
     add(claim);
   }
-  void decide_size(Claim& claim, double size, const Number& number, std::string_view reason,
-                   const std::string& objection) {
+  /// `say`: the claim in words, with " in which the frequency error stays at or below ..." of the set by
+  /// which it is proved.
+  template <typename Say>
+  void decide_size(const Say& say, const LargestOfSets& largest, const Number& number,
+                   std::string_view reason, const std::string& objection) {
+    const double size = largest.size;
     if (!(size > 0.0) || !std::isfinite(size)) {
+      Claim claim = say("");
       claim.reason = objection;
-    } else {
-      const bool holds = rigor::certainly_less_equal(number.value, Interval(size));
-      claim.verdict = holds ? Verdict::proved : Verdict::undecided;
-      claim.reason = fmt::format(fmt::runtime(reason), below(size)) +
-                     (holds ? "." : fmt::format("; {} was required.", number.text));
+      add(claim);
+      return;
     }
+    const ModelSet& set = *largest.set;
+    const bool is_lock = set.is_lock();
+    const bool holds = is_lock && rigor::certainly_less_equal(number.value, Interval(size));
+    Claim claim = say(holds ? in_lock(set) : "");
+    if (holds) {
+      claim.verdict = Verdict::proved;
+      claim.values = {{"frequency_error", above(set.frequency_error)}};
+    }
+    claim.reason = fmt::format(fmt::runtime(reason), below(size)) +
+                   (holds     ? "."
+                    : is_lock ? fmt::format("; {} was required.", number.text)
+                              : fmt::format(". {}.", lock_objection(set.frequency_error, set.half_distance)));
     add(claim);
+  }
+  /// " in which the frequency error stays at or below 0.05 rad/sample".
+  [[nodiscard]] std::string in_lock(const ModelSet& set) const {
+    return " in which the frequency error stays at or below " + units_.at_most(above(set.frequency_error));
   }
 
   /// From some sample on below what is required, by the levels of each tube.
@@ -333,19 +360,31 @@ class ModelClaims {
 
   /// From the start of the design into the set.
   [[nodiscard]] Claim captured(const Number& within) const {
-    const std::string requirement = fmt::format(
-        "the tracker is in the set \"{}\" of the certificate after at most {{}} samples", deciding_name());
-    Claim claim = required("model/capture-time", within,
-                           words_.constant_tone() + words_.noise() + words_.started_exactly(), requirement);
+    const auto say = [&](const std::string& there) {
+      const std::string requirement =
+          fmt::format("the tracker is in the set \"{}\" of the certificate after at most {{}} samples{}",
+                      deciding_name(), there);
+      return required("model/capture-time", within,
+                      words_.constant_tone() + words_.noise() + words_.started_exactly(), requirement);
+    };
+    Claim claim = say("");
     if (!covers_assumptions() || !sets_->capture) {
       claim.reason = assumption_objection();
     } else if (!sets_->capture->is_proved) {
       claim.reason = "It is not proved that it comes there: " + sets_->capture->reason + ".";
     } else {
       const double samples = sets_->capture->samples;
-      const bool holds = rigor::certainly_less_equal(Interval(samples), within.value);
-      claim.verdict = holds ? Verdict::proved : Verdict::undecided;
+      const bool is_lock = deciding_->is_lock();
+      if (is_lock && rigor::certainly_less_equal(Interval(samples), within.value)) {
+        const std::string error = above(deciding_->frequency_error);
+        claim = say(", and there the frequency error stays at or below " + units_.at_most(error));
+        claim.values = {{"frequency_error", error}};
+        claim.verdict = Verdict::proved;
+      }
       claim.reason = fmt::format("It is proved to be there after at most {} samples.", samples);
+      if (!is_lock) {
+        claim.reason += " " + lock_objection(deciding_->frequency_error, deciding_->half_distance) + ".";
+      }
     }
     return claim;
   }
@@ -459,6 +498,9 @@ class ModelClaims {
                                               double model::TubeSet::*size, std::string_view what) const {
     if (!set || !sets_->objection.empty()) {
       return assumption_objection();
+    }
+    if (set->is_proved() && !set->is_lock()) {
+      return fmt::format("A set was proved. {}.", lock_objection(set->frequency_error, set->half_distance));
     }
     return objection_of(*set) +
            (set->has_part() && set->tubes.*size > 0.0

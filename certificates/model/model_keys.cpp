@@ -120,30 +120,39 @@ void extended_kalman_filter(const TomlValue& value, ModelTable& target) {
   target.ekf = ekf;
 }
 
+/// Q and R are what the engineer chooses; the rest says which recursion it is.
+constexpr std::array kMembersOfEkf{
+    MemberContract{"states", Stronger::only_equal},  MemberContract{"predict", Stronger::only_equal},
+    MemberContract{"measure", Stronger::only_equal}, MemberContract{"Q", Stronger::neither},
+    MemberContract{"R", Stronger::neither},          MemberContract{"update", Stronger::only_equal},
+    MemberContract{"jacobian", Stronger::only_equal}};
+static_assert(kMembersOfEkf.size() == kEkfKeys.size());
+constexpr KeyContract kContractOfEkf{Stronger::only_equal, Measure::plain, kMembersOfEkf};
+
 using Table = ModelTable;
 constexpr std::string_view kNames = "a list of names, e.g. ['alpha', 'beta', 'w']";
 constexpr std::array kModelKeys{
     Key<Table>{"samples",
                "the name of the sample, e.g. 'y', or of the two of two channels, e.g. ['y1', 'y2']",
-               list<&Table::samples, 2>, kRequired},
+               list<&Table::samples, 2>, kRequired, kOnlyEqual},
     Key<Table>{"parameters", "a table of numbers and formulas, e.g. { k = 1.4142, T = '1/10000' }",
-               names_and_formulas<&Table::parameters>, kOptional},
-    Key<Table>{"states", kNames, list<&Table::states, kMostStates>, kOptional},
+               names_and_formulas<&Table::parameters>, kOptional, KeyContract{Stronger::as_it_is_used}},
+    Key<Table>{"states", kNames, list<&Table::states, kMostStates>, kOptional, kOnlyEqual},
     Key<Table>{"angles", "a list of the states that are angles, e.g. ['theta']",
-               list<&Table::angles, kMostStates>, kOptional},
+               list<&Table::angles, kMostStates>, kOptional, kOnlyEqual},
     Key<Table>{"units", "a table of the units of states, e.g. { w = 'rad/s' }",
-               names_and_formulas<&Table::units>, kOptional},
+               names_and_formulas<&Table::units>, kOptional, kNoContract},
     Key<Table>{"step", "lines name = formula and state' = formula, between three single quotes",
-               text<&Table::step, kLongestStep>, kOptional},
+               text<&Table::step, kLongestStep>, kOptional, kOnlyEqual},
     Key<Table>{"ekf",
                "in place of states and step, a table with states, predict, measure, Q, R, update = "
                "'standard' (may be "
                "left out) and jacobian = 'automatic' (may be left out) or a list of rows",
-               extended_kalman_filter, kOptional},
+               extended_kalman_filter, kOptional, kContractOfEkf},
     Key<Table>{"frequency", "a formula of the states: the estimated frequency in rad/sample",
-               text<&Table::frequency, kLongestFormula>, kRequired},
+               text<&Table::frequency, kLongestFormula>, kRequired, kOnlyEqual},
     Key<Table>{"start", "a table of formulas in A and omega, one for each state",
-               names_and_formulas<&Table::start>, kRequired},
+               names_and_formulas<&Table::start>, kRequired, kNoContract},
 };
 
 /// A number, or { unit = number }: true when it is in that unit.
@@ -209,30 +218,31 @@ constexpr std::array kModelAssumeKeys{
         "amplitude",
         "a number above 0, [least, largest] of amplitudes above 0 that may differ from sample to sample, or "
         "{ constant = [least, largest] } of one that is the same at every sample",
-        amplitude_of_samples, defaults_to("1")},
+        amplitude_of_samples, defaults_to("1"), kWider},
     Key<ModelAssume>{"sample_rate", "a number above 0, in Hz", real<&ModelAssume::sample_rate, positive>,
-                     kOptional},
+                     kOptional, kOnlyEqual},
     Key<ModelAssume>{
         "frequency",
         "[lowest, highest] in rad/sample, 0 or more, or with sample_rate { hz = [lowest, highest] }",
-        frequency_band, kRequired},
-    Key<ModelAssume>{"noise", kNoiseThatMayBeGaussian, noise_of_samples, kRequired},
+        frequency_band, kRequired, kWiderBand},
+    Key<ModelAssume>{"noise", kNoiseThatMayBeGaussian, noise_of_samples, kRequired, kContractOfNoise},
     Key<ModelAssume>{"samples", kSamplesOfProbability, real<&ModelAssume::samples, is_number_of_samples>,
-                     kOptional},
+                     kOptional, kMoreSamples},
     Key<ModelAssume>{"slew", "a number, 0 or more, or with sample_rate { hz_per_second = number }", slew_rate,
-                     defaults_to("0")},
+                     defaults_to("0"), kMoreSlew},
     Key<ModelAssume>{"start_within",
                      "a table of numbers or formulas of parameters, one for each state that may deviate from "
                      "the steady state at the start, e.g. { w = 0.01 }",
-                     names_and_formulas<&ModelAssume::start_within>, kOptional},
+                     names_and_formulas<&ModelAssume::start_within>, kOptional,
+                     KeyContract{Stronger::larger_of_each}},
     Key<ModelAssume>{
         "start_exactly",
         "a table of numbers or formulas of parameters, one for each state: the state in which the "
         "tracker is started, e.g. { alpha = 0, beta = 0, w = 0.3 }",
-        names_and_formulas<&ModelAssume::start_exactly>, kOptional},
+        names_and_formulas<&ModelAssume::start_exactly>, kOptional, kOnlyEqual},
     Key<ModelAssume>{"signal",
                      "a formula in A and phi for each sample, e.g. 'A*cos(phi) + 0.03*A*cos(3*phi)'",
-                     list<&ModelAssume::signal, 2>, kOptional},
+                     list<&ModelAssume::signal, 2>, kOptional, kOnlyEqual},
 };
 
 using ModelRequire = ModelRequirements;
@@ -262,22 +272,25 @@ void probability_of_losing_lock(const TomlValue& value, ModelRequire& target) {
 }
 constexpr std::array kModelRequireKeys{
     Key<ModelRequire>{"frequency_error_below", kPositiveFrequency,
-                      error_of_sets<&Requirements::frequency_error_below>, kOptional},
-    Key<ModelRequire>{"settles_within", "a whole number of samples, 1 or more", settles_within, kOptional},
+                      error_of_sets<&Requirements::frequency_error_below>, kOptional, kLessFrequency},
+    Key<ModelRequire>{"settles_within", "a whole number of samples, 1 or more", settles_within, kOptional,
+                      kLessSamples},
     Key<ModelRequire>{"settled_below", kPositiveFrequency, error_of_sets<&Requirements::settled_below>,
-                      kOptional},
-    Key<ModelRequire>{"captured_within", "a whole number of samples, 1 or more", captured_within, kOptional},
+                      kOptional, kLessFrequency},
+    Key<ModelRequire>{"captured_within", "a whole number of samples, 1 or more", captured_within, kOptional,
+                      kLessSamples},
     Key<ModelRequire>{"largest_noise_at_least", kPositive, of_sets<&Requirements::largest_noise_at_least>,
-                      kOptional},
-    Key<ModelRequire>{"largest_slew_at_least", kPositiveSlew, slew_of_sets, kOptional},
+                      kOptional, kMore},
+    Key<ModelRequire>{"largest_slew_at_least", kPositiveSlew, slew_of_sets, kOptional, kMoreSlew},
     Key<ModelRequire>{"frequency_error_radius_at_least", kPositiveFrequency,
-                      error_of_sets<&Requirements::frequency_error_radius_at_least>, kOptional},
+                      error_of_sets<&Requirements::frequency_error_radius_at_least>, kOptional,
+                      kMoreFrequency},
     Key<ModelRequire>{"probability_of_losing_lock_below", "a number above 0 and below 1",
-                      probability_of_losing_lock, kOptional},
+                      probability_of_losing_lock, kOptional, kLess},
     Key<ModelRequire>{"bias_below", kPositiveFrequency, in_radians<&ModelRequire::bias_below, positive>,
-                      kOptional},
+                      kOptional, kLessFrequency},
     Key<ModelRequire>{"ripple_below", kPositiveFrequency, in_radians<&ModelRequire::ripple_below, positive>,
-                      kOptional},
+                      kOptional, kLessFrequency},
 };
 
 std::vector<BoundTable> bind_model_tables(std::any& tables) {

@@ -49,12 +49,12 @@ bool covers(const ModelSet& set, const Part& part) {
          (part && has_part(set) && set.tubes.part.low <= part->low && part->high <= set.tubes.part.high);
 }
 
-/// Of those that cover the part. What is no number is no size.
+/// Of those that cover the part, and that are a lock. What is no number is no size.
 LargestOfSets largest(const Sets& sets, const Part& part, double (*size)(const ModelSet&)) {
   LargestOfSets found;
   for (const ModelSet* set : sets) {
     const double here = size(*set);
-    if (covers(*set, part) && std::isfinite(here) && here > found.size) {
+    if (covers(*set, part) && set->is_lock() && std::isfinite(here) && here > found.size) {
       found = {here, set};
     }
   }
@@ -75,7 +75,7 @@ std::optional<Where> where(const Sets& sets, const ModelAssumptions& assume,
   for (const ModelSet* set : sets) {
     const model::FrequencyRange& range = set->tubes.part;
     const bool is_wider = !widest || range.high - range.low > widest->range->high - widest->range->low;
-    if (!has_part(*set) || !(size(*set) > 0.0) || !is_wider) {
+    if (!has_part(*set) || !set->is_lock() || !(size(*set) > 0.0) || !is_wider) {
       continue;
     }
     if (auto part = band_part(assume, range)) {

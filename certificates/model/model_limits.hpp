@@ -1,6 +1,6 @@
 // The most that is proved of a model, whichever set it is proved by: a set for some noise shows that so much
 // noise is tolerated, one for a slew that so much slew is, and each of them, without either, how far it
-// reaches.
+// reaches. All of it is said of sets that are a lock.
 #pragma once
 
 #include <optional>

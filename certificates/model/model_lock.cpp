@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/model/false_lock.hpp"
 #include "analysis/model/tube_errors.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -63,6 +64,20 @@ Claim told_of(const char* id, const ModelLock& lock, std::string hypotheses, con
 
 }  // namespace
 
+bool names_lock(double frequency_error, double half_distance) {
+  return std::isfinite(frequency_error) &&
+         rigor::certainly_less(rigor::parse_decimal(shown(frequency_error)), Interval(half_distance));
+}
+
+std::string lock_objection(double frequency_error, double half_distance) {
+  return std::isfinite(frequency_error)
+             ? fmt::format(
+                   "Its frequency error may reach {} rad/sample, and from {} rad/sample on it may be "
+                   "nearer to a false lock: no lock can be named",
+                   shown(frequency_error), rigor::to_decimal(half_distance, 4, Direction::down))
+             : "Its frequency is not defined everywhere in it: no lock can be named";
+}
+
 ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr, const model::SetProgress& progress) {
   const auto& [table, assume, require] = *search.tables;
   const Interval samples = assume.samples.value().value;
@@ -105,6 +120,8 @@ ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr, const mo
       lock.start_share = std::max(lock.start_share, rigor::is_finite(share) ? share.upper() : INFINITY);
     }
   }
+  lock.half_distance =
+      model::half_distance_to_false_lock(*search.tracker, Interval::from_bounds(search.low, search.high));
   const model::GaussianTerms& terms = *lock.tubes.gaussian;
   lock.probability = with_some_room(
       model::leaving_probability(terms, search.tracker->recursion->samples, samples, lock.start_share));
@@ -117,15 +134,17 @@ void add_lock_claims(Certificate& certificate) {
   const ModelAssumptions& assume = tables.assume;
   const ModelSets& sets = model_sets(certificate);
   const ModelWords words(tables, std::nullopt, sets.bounds_covariance);
-  if (const auto& lock = sets.gaussian; lock && lock->is_proved() && lock->probability < 1.0) {
+  const auto is_told = [](const ModelLock& lock) {
+    return lock.is_proved() && lock.probability < 1.0 && names_lock(lock.frequency_error, lock.half_distance);
+  };
+  if (const auto& lock = sets.gaussian; lock && is_told(*lock)) {
     certificate.claims.push_back(told_of("model/losing-lock", *lock,
                                          words.constant_tone() +
                                              gaussian_words(*assume.gaussian, assume.amplitude[0]) +
                                              words.start_inside("gaussian"),
                                          assume));
   }
-  if (const auto& lock = sets.lowest_snr;
-      lock && lock->is_proved() && lock->probability < 1.0 && !lock->snr_db.empty()) {
+  if (const auto& lock = sets.lowest_snr; lock && is_told(*lock) && !lock->snr_db.empty()) {
     GaussianNoise noise;
     noise.snr_db = Number{};
     noise.snr_db->text = lock->snr_db;
@@ -147,12 +166,16 @@ Claim required_lock_claim(const Certificate& certificate) {
   const ModelWords words(tables, std::nullopt, sets.bounds_covariance);
   Claim claim;
   claim.id = "model/probability-of-losing-lock";
-  claim.requirement =
-      fmt::format("the probability of losing lock is below {} {}", required.text, stretch_of(assume));
-  claim.statement = words.constant_tone() + gaussian_words(*assume.gaussian, assume.amplitude[0]) +
-                    words.start_inside("gaussian") + ", " + claim.requirement + ".";
   claim.required = true;
   claim.position = required.position;
+  // With the frequency error that a loss of lock exceeds, once it is known.
+  const auto say = [&](const std::string& exceeding) {
+    claim.requirement = fmt::format("the probability of losing lock{} is below {} {}", exceeding,
+                                    required.text, stretch_of(assume));
+    claim.statement = words.constant_tone() + gaussian_words(*assume.gaussian, assume.amplitude[0]) +
+                      words.start_inside("gaussian") + ", " + claim.requirement + ".";
+  };
+  say("");
   if (!sets.gaussian || !sets.gaussian->is_proved() || !std::isfinite(sets.gaussian->probability)) {
     claim.reason = "No set of tubes was proved for this noise over the whole band";
     if (sets.gaussian && !sets.gaussian->tubes.reasons.empty()) {
@@ -164,8 +187,19 @@ Claim required_lock_claim(const Certificate& certificate) {
     return claim;
   }
   const double probability = sets.gaussian->probability;
+  if (!names_lock(sets.gaussian->frequency_error, sets.gaussian->half_distance)) {
+    claim.reason = fmt::format("A set is left with a probability of at most {}. {}.", shown(probability),
+                               lock_objection(sets.gaussian->frequency_error, sets.gaussian->half_distance));
+    return claim;
+  }
   const bool is_below = rigor::certainly_less(Interval(probability), required.value);
   claim.verdict = is_below ? Verdict::proved : Verdict::undecided;
+  if (is_below) {
+    const std::string error = shown(sets.gaussian->frequency_error);
+    claim.values = {{"frequency_error", error}};
+    say(fmt::format(", its frequency error exceeding {},",
+                    FrequencyUnits(assume.sample_rate).at_most(error)));
+  }
   claim.reason = fmt::format(
       "It is at most {}; while the tracker is in lock, its frequency error is at most {} "
       "rad/sample{}.",

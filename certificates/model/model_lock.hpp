@@ -15,12 +15,19 @@ namespace veritrack::certificates {
 struct ModelLock {
   model::TubeSet tubes;
   double frequency_error = 0.0;  ///< in the set, at most, rad/sample
+  double half_distance = 0.0;    ///< to the next false lock (analysis/model/false_lock.hpp), rad/sample
   double start_share = 0.0;      ///< the level of the starts over R, at most
   double probability = 1.0;      ///< of leaving the set within the assumed samples, at most
   std::string snr_db;            ///< of the noise, at least, dB: a decimal
 
   [[nodiscard]] bool is_proved() const { return tubes.is_complete; }
 };
+
+/// Whether sentences about lock may be said of a set with this bound of the frequency error, as they write
+/// it: it is nearer to the true lock than to any false one.
+[[nodiscard]] bool names_lock(double frequency_error, double half_distance);
+/// Why not.
+[[nodiscard]] std::string lock_objection(double frequency_error, double half_distance);
 
 /// Where nothing is said of starts: the level of those that statements are about, over R.
 inline constexpr double kStartShare = 0.5;

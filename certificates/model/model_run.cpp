@@ -1,7 +1,10 @@
 #include "certificates/model/model_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -26,6 +29,37 @@ std::vector<double> nearest_constants(const Model& model) {
     values.push_back(constant.nearest);
   }
   return values;
+}
+
+/// The harmonics of the formulas, from samples of one period: of both channels together, those that turn
+/// backwards included; of one, so that the real part is the signal.
+std::vector<Harmonic> harmonics_of(const Model& model, double amplitude) {
+  constexpr int kPlaces = 256;
+  constexpr int kHighest = 32;
+  constexpr double kSmall = 1e-9;  // what rounding leaves
+  const int channels = model.recursion.samples;
+  std::vector<double> registers;
+  std::vector<double> inputs = nearest_constants(model);
+  inputs.insert(inputs.end(), {amplitude, 0.0});
+  std::vector<double> values(model.signal.results().size());
+  std::vector<std::complex<double>> sums(2 * kHighest + 1);
+  for (int i = 0; i < kPlaces; ++i) {
+    inputs.back() = kTurn * i / kPlaces;
+    model.signal.run(std::span<const double>(inputs), registers, std::span(values));
+    const std::complex<double> sample(values.front(), channels > 1 ? values.back() : 0.0);
+    for (int order = -kHighest; order <= kHighest; ++order) {
+      sums[static_cast<std::size_t>(order + kHighest)] += sample * std::polar(1.0, -order * inputs.back());
+    }
+  }
+  std::vector<Harmonic> harmonics;
+  for (int order = channels > 1 ? -kHighest : 0; order <= kHighest; ++order) {
+    const double gain = (channels > 1 || order == 0 ? 1.0 : 2.0) / (kPlaces * amplitude);
+    const std::complex<double> value = gain * sums[static_cast<std::size_t>(order + kHighest)];
+    if (std::abs(value) > kSmall) {
+      harmonics.push_back({order, value});
+    }
+  }
+  return harmonics.empty() ? std::vector<Harmonic>(1) : harmonics;
 }
 
 class ModelRun : public TrackerRun {
@@ -155,6 +189,21 @@ TrackerOnSamples model_on_samples(const Design& design) {
         nearest_deviation(*tables.assume.gaussian, tables.assume.amplitude[0]) * assume.amplitude[0];
   } else {
     assume.noise = tables.assume.noise.nearest;
+  }
+  assume.signal = harmonics_of(*model, 0.5 * (assume.amplitude[0] + assume.amplitude[1]));
+  assume.has_signal_key = true;
+  if (tables.assume.samples) {
+    assume.samples = tables.assume.samples->nearest;
+  }
+  for (const std::vector<NamedText>* start : {&tables.assume.start_within, &tables.assume.start_exactly}) {
+    for (const NamedText& each : *start) {
+      assume.start.push_back(fmt::format("{} {} {}", each.name.text,
+                                         start == &tables.assume.start_within ? "off by at most" : "=",
+                                         each.formula.text));
+    }
+  }
+  if (assume.start.empty()) {
+    assume.start.emplace_back("a state in the certified starting set");
   }
   if (tables.assume.sample_rate) {
     assume.sample_rate = tables.assume.sample_rate->nearest;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analysis/model/amplitude_parts.hpp"
+#include "analysis/model/false_lock.hpp"
 #include "analysis/model/tube_errors.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -91,6 +92,11 @@ ModelSet conclude_of_tubes(const model::TrackerModel& tracker, TubeSet tubes,
   }
   set.frequency_error = set.settled_error = set.ripple = set.start_share = 0.0;
   set.reach = INFINITY;
+  const model::Tube& lowest = set.tubes.tubes.front().tube;
+  const model::Tube& highest = set.tubes.tubes.back().tube;
+  set.half_distance = model::half_distance_to_false_lock(
+      tracker, hull(Interval(lowest.frequency) - Interval(lowest.half_width),
+                    Interval(highest.frequency) + Interval(highest.half_width)));
   const model::ErrorGrid grid;
   bool is_first = true;
   for (const model::ProvedTube& proved : set.tubes.tubes) {
@@ -196,6 +202,7 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
       continue;
     }
     worst.frequency_error = larger(worst.frequency_error, set.frequency_error);
+    worst.half_distance = std::min(worst.half_distance, set.half_distance);
     worst.settled_error = larger(worst.settled_error, set.settled_error);
     worst.ripple = larger(worst.ripple, set.ripple);
     worst.start_share = larger(worst.start_share, set.start_share);

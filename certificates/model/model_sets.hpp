@@ -19,6 +19,7 @@ namespace veritrack::certificates {
 struct ModelSet {
   model::TubeSet tubes;
   double frequency_error = 0.0;  ///< of level R_0, at most, rad/sample
+  double half_distance = 0.0;    ///< to the next false lock (analysis/model/false_lock.hpp), rad/sample
   double settled_error = 0.0;    ///< of level R_m, at most, rad/sample
   double reach = 0.0;            ///< at least, rad/sample
   double start_share = 0.0;      ///< the level of the assumed starts over R_0, at most
@@ -27,6 +28,8 @@ struct ModelSet {
 
   /// For the whole band.
   [[nodiscard]] bool is_proved() const { return tubes.is_complete; }
+  /// Whether sentences about lock may be said of it.
+  [[nodiscard]] bool is_lock() const { return names_lock(frequency_error, half_distance); }
   /// For a part of it only: `tubes.part`.
   [[nodiscard]] bool has_part() const { return !tubes.is_complete && !tubes.tubes.empty(); }
 };

@@ -8,6 +8,7 @@
 
 #include "analysis/quadrature/capture/capture_starts.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/sets/lock_limit.hpp"
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/region.hpp"
@@ -26,6 +27,11 @@ using sets::ContractionQuestion;
 constexpr std::size_t kMostCells = 4000;
 constexpr std::size_t kMostCellsWithoutNoise = 2000;
 constexpr std::size_t kMostCellsAtReducedNoise = 600;
+
+bool is_lock(const quadrature::CertifiedSet& set) {
+  const rigor::UpwardRounding upward;
+  return sets::excludes_other_locks(quadrature::error_bounds(set, Interval(set.radius))[2]);
+}
 
 bool starts_are_outside(const sets::ContractionResult& contraction) {
   const auto& conditions = contraction.starts.conditions;
@@ -49,7 +55,8 @@ Claim claim_of(const Certificate& certificate, const StartCapture& capture, std:
   Claim claim;
   claim.id = std::move(id);
   claim.statement = hypotheses(terms, disturbance.value_or(assumed_disturbance(terms))) +
-                    "the tracker enters the certified set, which it never leaves.";
+                    "the tracker enters the certified set, in which the frequency error stays below " +
+                    lock_words(terms) + ", and never leaves it.";
   claim.verdict = capture.result.verdict;
   for (const theorems::Condition& condition : capture.result.conditions) {
     if (condition.verdict == claim.verdict) {
@@ -107,7 +114,7 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
                                 quadrature_particulars(certificate).certified_sets.end(),
                                 [](const NamedSet& named) { return named.purpose == "start-error"; });
   if (set == quadrature_particulars(certificate).certified_sets.end() ||
-      !starts_are_outside(*certificate.contraction)) {
+      !starts_are_outside(*certificate.contraction) || !is_lock(set->set)) {
     return;
   }
   const search::Deadline never;

@@ -45,8 +45,9 @@ Claim probability_claim(const theorems::Derivation& derivation, const GuaranteeT
       theorems::applicable_quantity(derivation, "probability_of_losing_lock");
   Claim claim;
   claim.id = "ekf/probability-of-losing-lock";
-  claim.requirement = fmt::format("the probability of losing lock is below {} {}", required.text,
-                                  stretch_of_samples(terms.assume));
+  claim.requirement =
+      fmt::format("the probability of losing lock, a frequency error of {} or more, is below {} {}",
+                  lock_words(terms), required.text, stretch_of_samples(terms.assume));
   claim.statement = hypotheses(terms) + claim.requirement + ".";
   claim.required = true;
   claim.position = required.position;
@@ -54,7 +55,9 @@ Claim probability_claim(const theorems::Derivation& derivation, const GuaranteeT
     claim.reason = open_condition(derivation);
     return claim;
   }
-  const bool below = rigor::certainly_less(probability->value, required.value);
+  const theorems::Quantity* reach = theorems::applicable_quantity(derivation, "lock_frequency_error");
+  const bool below = rigor::certainly_less(probability->value, required.value) && reach != nullptr &&
+                     is_lock(reach->value, terms);
   claim.verdict = below ? Verdict::proved : Verdict::undecided;
   claim.reason = fmt::format("It is at most {}{}.", rigor::upper_decimal(probability->value, kShownDigits),
                              below ? "" : ", which is not below what is required");
@@ -94,7 +97,7 @@ Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerm
   Claim claim;
   claim.id = "ekf/guarantee";
   claim.statement = hypotheses(terms);
-  if (probability == nullptr || reach == nullptr) {
+  if (probability == nullptr || reach == nullptr || !is_lock(reach->value, terms)) {
     claim.statement += "the tracker keeps its lock with a stated probability.";
     claim.reason = open_condition(derivation);
     return claim;

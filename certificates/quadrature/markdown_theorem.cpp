@@ -47,7 +47,7 @@ void add_variant(std::string& cell, const std::string& text, const std::string& 
   if (cell.empty()) {
     cell = text;
   } else if (cell.find(text) == std::string::npos) {
-    cell += "<br>" + name + ": " + text;
+    cell += "; " + name + ": " + text;
   }
 }
 

@@ -120,8 +120,10 @@ Claim mean_square_claim(const Certificate& certificate, const GuaranteeTerms& te
       derivation == nullptr ? nullptr : theorems::applicable_quantity(*derivation, kRms);
   Claim claim;
   claim.id = "ekf/rms-frequency-error";
-  claim.requirement = fmt::format("the root mean square of the frequency error in lock is below {} {}",
-                                  frequency_words(required), stretch_of_samples(terms.assume));
+  claim.requirement = fmt::format(
+      "the root mean square of the frequency error in lock, in a certified set where it stays below {}, is "
+      "below {} {}",
+      lock_words(terms), frequency_words(required), stretch_of_samples(terms.assume));
   claim.statement = hypotheses(terms) + claim.requirement + ".";
   claim.required = true;
   claim.position = required.position;
@@ -138,7 +140,11 @@ Claim mean_square_claim(const Certificate& certificate, const GuaranteeTerms& te
     claim.reason += ".";
     return claim;
   }
-  const bool below = rigor::certainly_less(rms->value, required.value);
+  const theorems::Derivation* lock = find_derivation(certificate, "lock");
+  const theorems::Quantity* reach =
+      lock == nullptr ? nullptr : theorems::applicable_quantity(*lock, "lock_frequency_error");
+  const bool below =
+      rigor::certainly_less(rms->value, required.value) && reach != nullptr && is_lock(reach->value, terms);
   claim.verdict = below ? Verdict::proved : Verdict::undecided;
   claim.reason = fmt::format("It is at most {}{}.",
                              FrequencyUnits(terms.assume.sample_rate).at_most(rms->value, kShownRmsDigits),

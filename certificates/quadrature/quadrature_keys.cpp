@@ -17,20 +17,21 @@ bool between_zero_and_one(const Interval& x) {
 
 using Ekf = QuadratureDesignTable;
 constexpr std::array kQuadratureEkfKeys{
-    Key<Ekf>{"q1", kNotNegative, real<&Ekf::q1, not_negative>, kRequired},
-    Key<Ekf>{"q2", kPositive, real<&Ekf::q2, positive>, kRequired},
-    Key<Ekf>{"r", kPositive, real<&Ekf::r, positive>, kRequired},
-    Key<Ekf>{"epsilon", kAtLeastZeroBelowOne, real<&Ekf::epsilon, at_least_zero_below_one>, kRequired},
+    Key<Ekf>{"q1", kNotNegative, real<&Ekf::q1, not_negative>, kRequired, kNoContract},
+    Key<Ekf>{"q2", kPositive, real<&Ekf::q2, positive>, kRequired, kNoContract},
+    Key<Ekf>{"r", kPositive, real<&Ekf::r, positive>, kRequired, kNoContract},
+    Key<Ekf>{"epsilon", kAtLeastZeroBelowOne, real<&Ekf::epsilon, at_least_zero_below_one>, kRequired,
+             kNoContract},
 };
 
 using Theorem = Theorem29Parameters;
 constexpr std::array kTheorem29Keys{
-    Key<Theorem>{"R_x", kPositive, real<&Theorem::state_bound, positive>, defaults_to("7")},
-    Key<Theorem>{"sigma", kPositive, real<&Theorem::sigma, positive>, defaults_to("1e-3")},
+    Key<Theorem>{"R_x", kPositive, real<&Theorem::state_bound, positive>, defaults_to("7"), kNoContract},
+    Key<Theorem>{"sigma", kPositive, real<&Theorem::sigma, positive>, defaults_to("1e-3"), kNoContract},
     Key<Theorem>{"gamma_fraction", "a number above 0 and below 1",
-                 real<&Theorem::gamma_fraction, between_zero_and_one>, defaults_to("0.5")},
-    Key<Theorem>{"c1", kNotNegative, real<&Theorem::c1, not_negative>, defaults_to("3")},
-    Key<Theorem>{"c2", kNotNegative, real<&Theorem::c2, not_negative>, defaults_to("3")},
+                 real<&Theorem::gamma_fraction, between_zero_and_one>, defaults_to("0.5"), kNoContract},
+    Key<Theorem>{"c1", kNotNegative, real<&Theorem::c1, not_negative>, defaults_to("3"), kNoContract},
+    Key<Theorem>{"c2", kNotNegative, real<&Theorem::c2, not_negative>, defaults_to("3"), kNoContract},
 };
 
 std::vector<BoundTable> bind_tables(std::any& tables) {

@@ -31,15 +31,14 @@ namespace veritrack::certificates {
 
 namespace {
 
-using markdown::escaped;
 using markdown::math;
 
 std::string design_section(const Certificate& certificate) {
   const Design& design = certificate.design;
   const QuadratureDesignTable& chosen = quadrature_tables(design).design;
   std::string text = "## The design\n\n";
-  text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
-  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  text += fmt::format("{}The tracker is `{}`.\n\n", markdown::quotation(design.name, design.source),
+                      design.tracker);
   const auto row = [](const std::string& what, const std::string& symbol, const Number& number,
                       const std::string& unit) {
     return std::vector<std::string>{what, math(symbol), "`" + number.text + "`", unit};

@@ -50,7 +50,7 @@ void add(std::vector<Voices>& voices, const std::string& text, const std::string
 std::string cell(const std::vector<Voices>& voices) {
   std::string text;
   for (const Voices& voice : voices) {
-    text += text.empty() ? "" : "<br>";
+    text += text.empty() ? "" : "; ";
     text += voices.size() == 1 ? voice.text : fmt::format("*{}*: {}", voice.readings, voice.text);
   }
   return text;

@@ -13,14 +13,12 @@ namespace veritrack::certificates {
 
 namespace {
 
-using markdown::escaped;
-
 std::string plant_section(const Certificate& certificate) {
   const Design& design = certificate.design;
   const RegulatorTables& tables = regulator_tables(design);
   std::string text = "## The plant and the regulator\n\n";
-  text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
-  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  text += fmt::format("{}The tracker is `{}`.\n\n", markdown::quotation(design.name, design.source),
+                      design.tracker);
   text += fmt::format(
       "The plant is $`A_1 x_{{k+1}} = B_1 u_k`$, the output $`y_k = x_k + v_k`$ with the disturbance $`v`$, "
       "a tone. In "

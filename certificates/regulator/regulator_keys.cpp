@@ -40,14 +40,14 @@ void frequency_tracker(const TomlValue& value, RegulatorDesignTable& design) {
 
 constexpr std::array kPlantKeys{
     Key<PlantTable>{"a", "an array of one to eight numbers, a_1 ... a_p", coefficients<&PlantTable::a>,
-                    kRequired},
+                    kRequired, kOnlyEqual},
     Key<PlantTable>{"b", "an array of one to eight numbers, b_0 ... b_{p-1}, b_0 not 0", input_coefficients,
-                    kRequired},
+                    kRequired, kOnlyEqual},
 };
 constexpr std::array kRegulatorDesignKeys{
     Key<RegulatorDesignTable>{"frequency_tracker",
                               "a table with a design of quadrature-ekf, single-channel-ekf or model",
-                              frequency_tracker, kRequired},
+                              frequency_tracker, kRequired, KeyContract{Stronger::inner_design}},
 };
 using Regulation = RegulatorRequirements;
 void attenuated_within(const TomlValue& value, Regulation& require) {
@@ -59,19 +59,19 @@ void regulation(const TomlValue& value, Regulation& require) {
 }
 constexpr std::array kRegulationKeys{
     Key<Regulation>{"attenuation_above", "a number of dB above 0", regulation<&Regulation::attenuation_above>,
-                    kOptional},
+                    kOptional, kMore},
     Key<Regulation>{"attenuated_within", "a whole number of samples, 1 or more; with attenuation_above",
-                    attenuated_within, kOptional},
-    Key<Regulation>{"output_below", kPositive, regulation<&Regulation::output_below>, kOptional},
-    Key<Regulation>{"input_below", kPositive, regulation<&Regulation::input_below>, kOptional},
+                    attenuated_within, kOptional, kLessSamples},
+    Key<Regulation>{"output_below", kPositive, regulation<&Regulation::output_below>, kOptional, kLess},
+    Key<Regulation>{"input_below", kPositive, regulation<&Regulation::input_below>, kOptional, kLess},
 };
 using Run = RegulatorSimulation;
 constexpr std::int64_t kMostSamples = 10'000'000;
 constexpr std::array kRunKeys{
     Key<Run>{"samples", "a whole number from 1 to 10000000", integer<&Run::samples, 1, kMostSamples>,
-             defaults_to("1000")},
+             defaults_to("1000"), kNoContract},
     Key<Run>{"seed", "a whole number, 0 or more",
-             integer<&Run::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1")},
+             integer<&Run::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1"), kNoContract},
 };
 
 std::vector<BoundTable> bind_regulator_tables(std::any& tables) {

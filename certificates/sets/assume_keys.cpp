@@ -190,30 +190,30 @@ void initial_covariance(const TomlValue& value, Assumptions& assume) {
 
 using Assume = Assumptions;
 constexpr std::array kAssumeKeys{
-    Key<Assume>{"amplitude", kPositive, real<&Assume::amplitude, positive>, defaults_to("1")},
-    Key<Assume>{"sample_rate", kSampleRate, real<&Assume::sample_rate, positive>, kOptional},
+    Key<Assume>{"amplitude", kPositive, real<&Assume::amplitude, positive>, defaults_to("1"), kWider},
+    Key<Assume>{"sample_rate", kSampleRate, real<&Assume::sample_rate, positive>, kOptional, kOnlyEqual},
     Key<Assume>{"frequency",
                 "[lowest, highest] in rad/sample, 0 <= lowest <= highest <= 3.141592653589793 (beyond pi a "
                 "sampled frequency is the same as a lower one); f Hz at fs samples per second is 2 pi f/fs "
                 "rad/sample: with sample_rate = fs write { hz = [lowest, highest] }",
-                frequency, kRequired},
-    Key<Assume>{"noise", kBoundOnNoise, bounded_noise, kRequired},
-    Key<Assume>{"slew", kNotNegativeSlew, slew<&Assume::slew, not_negative>, defaults_to("0")},
+                frequency, kRequired, kWiderBand},
+    Key<Assume>{"noise", kBoundOnNoise, bounded_noise, kRequired, kContractOfNoise},
+    Key<Assume>{"slew", kNotNegativeSlew, slew<&Assume::slew, not_negative>, defaults_to("0"), kMoreSlew},
     Key<Assume>{"initial_frequency_error", kNotNegativeFrequency,
-                in_radians<&Assume::initial_frequency_error, not_negative>, kRequired},
+                in_radians<&Assume::initial_frequency_error, not_negative>, kRequired, kMoreFrequency},
     Key<Assume>{
         "initial_phase_error",
         "a number from 0 to pi, rad (beyond half a turn an error of the phase is a smaller one on the "
         "other side)",
-        real<&Assume::initial_phase_error, at_most_half_a_turn>, kRequired},
+        real<&Assume::initial_phase_error, at_most_half_a_turn>, kRequired, kMore},
     Key<Assume>{"initial_amplitude_error", kNotNegative, real<&Assume::initial_amplitude_error, not_negative>,
-                kRequired},
+                kRequired, kMore},
     Key<Assume>{
         "initial_covariance",
         "\"steady-state\", a symmetric positive definite 3x3 array of numbers, or { from = ..., to = "
         "... } with two such arrays, the first below the second, or with two numbers above 0, multiples "
         "of the steady state, the first not above the second",
-        initial_covariance, defaults_to("\"steady-state\"")},
+        initial_covariance, defaults_to("\"steady-state\""), kWider},
 };
 
 /// kAssumeKeys with noise that may be Gaussian, and what goes with that.
@@ -227,9 +227,9 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size() + 2> with_gaussian_noise() 
     }
   }
   keys[kAssumeKeys.size()] = {"frequency_walk", kNotNegativeFrequency,
-                              in_radians<&Assume::frequency_walk, not_negative>, kOptional};
+                              in_radians<&Assume::frequency_walk, not_negative>, kOptional, kMoreFrequency};
   keys[kAssumeKeys.size() + 1] = {"samples", kSamplesOfProbability,
-                                  real<&Assume::samples, is_number_of_samples>, kOptional};
+                                  real<&Assume::samples, is_number_of_samples>, kOptional, kMoreSamples};
   return keys;
 }
 constexpr std::array kAssumeKeysWithGaussianNoise = with_gaussian_noise();

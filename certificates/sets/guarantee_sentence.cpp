@@ -7,6 +7,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/lock_limit.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/contraction.hpp"
@@ -91,6 +92,24 @@ std::string assumed_disturbance(const GuaranteeTerms& terms) {
                      : "");
 }
 
+std::string lock_words(const GuaranteeTerms& terms) {
+  std::string limit = "3.14";
+  if (!terms.two_channels) {
+    const rigor::UpwardRounding upward;
+    const auto& [low, high] = terms.assume.frequency;
+    limit = rigor::lower_decimal(rigor::max(rigor::min(low.value, rigor::pi() - high.value), Interval(0.0)),
+                                 kDigits);
+  }
+  return FrequencyUnits(terms.assume.sample_rate).at_most(limit);
+}
+
+bool is_lock(const Interval& frequency_error, const GuaranteeTerms& terms) {
+  const rigor::UpwardRounding upward;
+  const auto& [low, high] = terms.assume.frequency;
+  return terms.two_channels ? sets::excludes_other_locks(frequency_error)
+                            : sets::excludes_other_locks(frequency_error, hull(low.value, high.value));
+}
+
 std::string disturbance_of(const std::string& noise, const std::string& slew) {
   return (slew.empty() ? " and is constant"
                        : fmt::format(" and changes by at most {} rad/sample per sample", slew)) +
@@ -136,7 +155,8 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
   claim.id = kGuarantee;
   claim.statement = hypotheses(terms);
   claim.statement += required ? requirement->requirement : "the tracker keeps its lock for ever";
-  if (bound && (requirement == nullptr || requirement->verdict == Verdict::proved)) {
+  // Without a required bound it is the lock that is kept.
+  if (bound && (requirement == nullptr ? is_lock(*bound, terms) : requirement->verdict == Verdict::proved)) {
     claim.verdict = Verdict::proved;
     claim.statement += ": the frequency error never exceeds " + units.at_most(*bound, kDigits);
     claim.evidence = {starts.frequency_error_bound};
@@ -173,8 +193,8 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
     claim.id = "ekf/invariant-set";
     claim.verdict = Verdict::proved;
     claim.statement = fmt::format(
-        "{}, a certified invariant set contains frequency errors up to {}{}", tone(terms, true),
-        units.at_least(found.frequency_error_radius.value, kDigits),
+        "{}, a certified invariant set contains frequency errors up to {} and none of {} or more{}",
+        tone(terms, true), units.at_least(found.frequency_error_radius.value, kDigits), lock_words(terms),
         found.about_steady_state ? ", measured from the steady state, which the leak biases" : "");
     claim.evidence = {found.frequency_error_radius};
     if (!has_sets_for_the_radius(certificate)) {
@@ -196,9 +216,9 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
     claim.statement = fmt::format(
         "{}, at a constant frequency the tracker tolerates noise up to {} of the amplitude, and without "
         "noise a slew "
-        "up to {}: a certified invariant set exists for each.",
+        "up to {}: a certified invariant set exists for each, in which the frequency error stays below {}.",
         tone(terms, false), rigor::lower_decimal(found.largest_noise.value, kDigits),
-        units.slew(found.largest_slew.value, kDigits));
+        units.slew(found.largest_slew.value, kDigits), lock_words(terms));
     claim.evidence = {found.largest_noise, found.largest_slew};
     claims.push_back(std::move(claim));
   }

@@ -29,6 +29,13 @@ struct GuaranteeTerms {
 /// `disturbed`.
 [[nodiscard]] std::string tone(const GuaranteeTerms& terms, bool disturbed);
 
+/// "3.14 rad/sample": less than half of the distance from the lock to the next one that the formulas know.
+/// One channel shows a tone of the frequency w as one of -w or 2 pi - w, too.
+[[nodiscard]] std::string lock_words(const GuaranteeTerms& terms);
+/// Whether frequency errors up to that bound, rad/sample, are certainly below it. Holds its own rounding
+/// mode.
+[[nodiscard]] bool is_lock(const rigor::Interval& frequency_error, const GuaranteeTerms& terms);
+
 /// " and is constant, with measurement noise of at most ...": the assumed noise and slew, or those relative
 /// to the amplitude and in rad/sample per sample, as decimals; none where they are empty.
 [[nodiscard]] std::string assumed_disturbance(const GuaranteeTerms& terms);

@@ -38,21 +38,21 @@ void signal(const TomlValue& value, SimulationSettings& simulate) {
 using Require = Requirements;
 constexpr std::array kRequireKeys{
     Key<Require>{"frequency_error_below", kPositiveFrequency,
-                 in_radians<&Require::frequency_error_below, positive>, kOptional},
+                 in_radians<&Require::frequency_error_below, positive>, kOptional, kLessFrequency},
     Key<Require>{"settles_within", "a whole number of samples, 1 or more",
-                 whole_number<&Require::settles_within, at_least_one>, kOptional},
+                 whole_number<&Require::settles_within, at_least_one>, kOptional, kLessSamples},
     Key<Require>{"settled_below", kPositiveFrequency, in_radians<&Require::settled_below, positive>,
-                 kOptional},
+                 kOptional, kLessFrequency},
     Key<Require>{"largest_noise_at_least", kPositive, real<&Require::largest_noise_at_least, positive>,
-                 kOptional},
+                 kOptional, kMore},
     Key<Require>{"largest_slew_at_least", kPositiveSlew, slew<&Require::largest_slew_at_least, positive>,
-                 kOptional},
+                 kOptional, kMoreSlew},
     Key<Require>{"frequency_error_radius_at_least", kPositiveFrequency,
-                 in_radians<&Require::frequency_error_radius_at_least, positive>, kOptional},
+                 in_radians<&Require::frequency_error_radius_at_least, positive>, kOptional, kMoreFrequency},
     Key<Require>{"probability_of_losing_lock_below", "a number above 0 and below 1",
-                 real<&Require::probability_of_losing_lock_below, between_zero_and_one>, kOptional},
+                 real<&Require::probability_of_losing_lock_below, between_zero_and_one>, kOptional, kLess},
     Key<Require>{"rms_frequency_error_below", kPositiveFrequency,
-                 in_radians<&Require::rms_frequency_error_below, positive>, kOptional},
+                 in_radians<&Require::rms_frequency_error_below, positive>, kOptional, kLessFrequency},
 };
 
 constexpr std::size_t kKeysOfGaussianNoise = 2;  // the last ones
@@ -119,10 +119,11 @@ std::span<const Key<SimulationSettings>> simulate_keys() {
   static const std::string signals = fmt::format("\"{}\"", fmt::join(trackers::signal_names(), "\", \""));
   static const std::array keys{
       Key<Simulate>{"samples", "an integer from 1 to 10000000", integer<&Simulate::samples, 1, 10'000'000>,
-                    defaults_to("1000")},
+                    defaults_to("1000"), kNoContract},
       Key<Simulate>{"seed", "an integer from 0 to 9223372036854775807",
-                    integer<&Simulate::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1")},
-      Key<Simulate>{"signal", signals, signal, defaults_to("\"constant\"")},
+                    integer<&Simulate::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1"),
+                    kNoContract},
+      Key<Simulate>{"signal", signals, signal, defaults_to("\"constant\""), kNoContract},
   };
   return keys;
 }

@@ -90,7 +90,7 @@ Claim settling_claim(const sets::StartResult& starts, const GuaranteeTerms& term
 struct LeastSize {
   const char* claim;  ///< id
   const theorems::Quantity& certified;
-  const char* statement;           ///< of which {} is the number as written
+  std::string statement;           ///< of which {} is the number as written
   const char* largest;             ///< what the quantity is, for the reason
   Interval scale;                  ///< from the quantity's unit to the requirement's
   bool under_assumptions = false;  ///< the assumed noise and slew are among the hypotheses
@@ -140,6 +140,9 @@ void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) 
   const Assumptions& assume = terms.assume;
   const Requirements& require = terms.require;
   const sets::ContractionResult& found = certificate.contraction.value();
+  const std::string lock = lock_words(terms);
+  const std::string in_lock =
+      ": a certified invariant set exists, in which the frequency error stays below " + lock;
   const auto add_least_size = [&](const std::optional<Number>& required, const LeastSize& size) {
     if (required) {
       certificate.claims.push_back(least_size_claim(size, terms, *required));
@@ -151,19 +154,20 @@ void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) 
   if (require.settles_within) {
     certificate.claims.push_back(settling_claim(found.starts, terms));
   }
-  add_least_size(
-      require.largest_noise_at_least,
-      {"ekf/largest-noise", found.largest_noise,
-       "at a constant frequency, the tracker tolerates noise up to {}: a certified invariant set exists",
-       "noise at a constant frequency", assume.amplitude.value});
-  add_least_size(require.largest_slew_at_least, {"ekf/largest-slew", found.largest_slew,
-                                                 "without noise, the tracker tolerates a slew up to {}: "
-                                                 "a certified invariant set exists",
-                                                 "slew without noise", Interval(1.0), false, "", slew_words});
+  add_least_size(require.largest_noise_at_least,
+                 {"ekf/largest-noise", found.largest_noise,
+                  "at a constant frequency, the tracker tolerates noise up to {}" + in_lock,
+                  "noise at a constant frequency", assume.amplitude.value});
+  add_least_size(require.largest_slew_at_least,
+                 {"ekf/largest-slew", found.largest_slew,
+                  "without noise, the tracker tolerates a slew up to {}" + in_lock, "slew without noise",
+                  Interval(1.0), false, "", slew_words});
   add_least_size(
       require.frequency_error_radius_at_least,
       {"ekf/frequency-error-radius", found.frequency_error_radius,
-       "under the assumed noise and slew, a certified invariant set contains frequency errors up to {}",
+       "under the assumed noise and slew, a certified invariant set contains frequency errors up to {} and "
+       "none of " +
+           lock + " or more",
        "frequency error in an invariant set", Interval(1.0), true,
        found.about_steady_state ? ", measured from the steady state, which the leak biases" : "",
        frequency_words});

@@ -2,6 +2,7 @@
 // bounds.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "certificates/design/design_format.hpp"
@@ -25,6 +26,10 @@ inline constexpr std::string_view kNoiseThatMayBeGaussian =
     "200 } or { deviation "
     "= a number above 0 }";
 void read_noise(const TomlValue& value, Number& bound, std::optional<GaussianNoise>& gaussian);
+/// More noise, or a lower ratio, is the harder question; a bound and Gaussian noise are different ones.
+inline constexpr std::array kFormsOfNoise{MemberContract{"snr_db", Stronger::smaller},
+                                          MemberContract{"deviation", Stronger::larger}};
+inline constexpr KeyContract kContractOfNoise{Stronger::larger, Measure::plain, kFormsOfNoise};
 /// For how many samples a probability is asked: from 1 to 1e15.
 inline constexpr std::string_view kSamplesOfProbability = "a number from 1 to 1e15";
 [[nodiscard]] bool is_number_of_samples(const rigor::Interval& x);

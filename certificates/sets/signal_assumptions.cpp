@@ -1,5 +1,7 @@
 #include "certificates/sets/signal_assumptions.hpp"
 
+#include <fmt/format.h>
+
 #include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
@@ -20,6 +22,17 @@ SignalAssumptions signal_assumptions(const Assumptions& assume) {
   if (!frequency_walks(assume)) {
     signal.slew = assume.slew.nearest;
   }
+  if (assume.samples) {
+    signal.samples = assume.samples->nearest;
+  }
+  signal.start = {
+      fmt::format("frequency off by at most {:.4g} rad/sample", assume.initial_frequency_error.nearest),
+      fmt::format("phase off by at most {} rad", assume.initial_phase_error.text),
+      fmt::format("amplitude off by at most {}", assume.initial_amplitude_error.text),
+      assume.initial_covariance || assume.covariance_range || assume.covariance_multiples
+          ? "covariance as the design file says"
+          : "covariance of the steady state",
+  };
   return signal;
 }
 

@@ -157,11 +157,9 @@ std::string recursion_section(const Certificate& certificate) {
 std::string single_channel_design_section(const Certificate& certificate) {
   const SingleChannelDesignTable& chosen = single_channel_tables(certificate.design).design;
   std::string text = "## The design\n\n";
-  text += fmt::format("{} — tracker `{}`", markdown::escaped(certificate.design.name),
+  text += fmt::format("{}The tracker is `{}`.\n\n",
+                      markdown::quotation(certificate.design.name, certificate.design.source),
                       certificate.design.tracker);
-  text += certificate.design.source.empty()
-              ? ".\n\n"
-              : fmt::format(", from: {}.\n\n", markdown::escaped(certificate.design.source));
   std::vector<std::vector<std::string>> rows;
   const auto add = [&](const char* what, const char* symbol, const std::optional<Number>& number,
                        const char* unit) {

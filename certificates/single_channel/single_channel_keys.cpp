@@ -29,16 +29,16 @@ void process_noise(const TomlValue& value, SingleChannelDesignTable& design) {
 
 using Single = SingleChannelDesignTable;
 constexpr std::array kSingleChannelEkfKeys{
-    Key<Single>{"q", kPositive, real<&Single::q, positive>, kOptional},
-    Key<Single>{"r", kNotNegative, real<&Single::r, not_negative>, kOptional},
+    Key<Single>{"q", kPositive, real<&Single::q, positive>, kOptional, kNoContract},
+    Key<Single>{"r", kNotNegative, real<&Single::r, not_negative>, kOptional, kNoContract},
     Key<Single>{"lambda", "a number, 0 or more, in place of q and r", real<&Single::lambda, not_negative>,
-                kOptional},
+                kOptional, kNoContract},
     Key<Single>{"epsilon", kAtLeastZeroBelowOne, real<&Single::epsilon, at_least_zero_below_one>,
-                defaults_to("0")},
+                defaults_to("0"), kNoContract},
     Key<Single>{"process_noise",
                 "\"frequency-only\" for Q = q diag(0, 0, 1), \"identity\" for Q = q diag(1, 1, 1), or { q1 = "
                 "..., q2 = ... } for Q = diag(q1, q1, q2), each 0 or more",
-                process_noise, kRequired},
+                process_noise, kRequired, kNoContract},
 };
 
 std::vector<BoundTable> bind_tables(std::any& tables) {

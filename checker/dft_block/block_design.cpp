@@ -48,16 +48,38 @@ void BlockDesign::read_design(Objections& objections) {
       problem_.half_width = i;
     }
   }
-  for (const char* key : {"block_length", "centre"}) {
-    if (chosen.find(key) != nullptr) {
-      const Ball number = read_positive(chosen.at(key), key, objections);
-      if (arb_is_int(number.raw()) == 0) {
-        objections.push_back(std::string(key) + " must be a whole number");
-      }
-    }
-  }
   if (problem_.half_width == 0) {
     objections.emplace_back("half_width must be a whole number from 1 to 8");
+  }
+  read_bins(objections);
+}
+
+/// The noise of the samples is independent from bin to bin, with the same variance in real and imaginary
+/// part, in the bins strictly between 0 and T/2: bins 0 and T/2 are real, and bin T - m is the conjugate of
+/// bin m. Those are M - L ... M + L; without a centre there has to be one for which they are, and L + 1 is
+/// the lowest.
+void BlockDesign::read_bins(Objections& objections) const {
+  const Tree& chosen = design_.at("design");
+  const auto whole = [&](const char* key) {
+    Ball number = read_positive(chosen.at(key), key, objections);
+    if (arb_is_int(number.raw()) == 0) {
+      objections.push_back(std::string(key) + " must be a whole number");
+    }
+    return number;
+  };
+  if (chosen.find("block_length") == nullptr) {
+    if (chosen.find("centre") != nullptr) {
+      objections.emplace_back("a centre goes with block_length");
+    }
+    return;
+  }
+  const Ball width(static_cast<double>(problem_.half_width));
+  const Ball length = whole("block_length");
+  const Ball centre = chosen.find("centre") != nullptr ? whole("centre") : width + one;
+  if (!certainly_less(width, centre) || !certainly_less(two * (centre + width), length)) {
+    objections.emplace_back(
+        "the bins M - L ... M + L are not all between 1 and half of block_length, where white noise is "
+        "independent from bin to bin");
   }
 }
 
@@ -202,7 +224,8 @@ Ball BlockDesign::asked(const char* key) const {
 std::string BlockDesign::required_text(const std::string& id) const {
   if (id == kProbability) {
     return "within the first " + text_of(assume_.at("blocks")) +
-           " blocks lock is lost with a probability below " + asked_text("probability_of_losing_lock_below");
+           " blocks lock is lost, the offset error exceeding half a bin, with a probability below " +
+           asked_text("probability_of_losing_lock_below");
   }
   return id == kOffsetError
              ? "the offset error is below " + asked_text("offset_error_below") + " bins in every block"
@@ -241,7 +264,7 @@ std::string BlockDesign::gaussian_words(const Ball& deviation, const std::string
          "block "
          "to block and from bin to bin, with independent real and imaginary parts of a deviation of at "
          "most " +
-         lower_decimal(deviation) + " each: that of blocks of " +
+         lower_decimal(deviation) + " each: that of the bins between 0 and T/2 of blocks of T = " +
          text_of(design_.at("design").at("block_length")) + " samples with white noise and " + of_samples;
 }
 

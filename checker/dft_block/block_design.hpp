@@ -51,6 +51,7 @@ class BlockDesign {
 
  private:
   void read_design(Objections& objections);
+  void read_bins(Objections& objections) const;
   void read_assumptions(Objections& objections);
   void read_noise(Objections& objections);
   void read_covariance(Objections& objections);

@@ -95,17 +95,9 @@ Derivation lock_set(const Tree& derivation, const BlockProblem& problem, const B
   if (!tolerates) {
     objections.emplace_back("noise and slew may push errors out of the set");
   }
-  if (!falls || !tolerates || !starts) {
+  if (!falls || !tolerates) {
     return found;
   }
-  const auto add = [&](const char* name, const Ball& value) {
-    found.quantities.push_back({name, value, Sense::bounds_above});
-  };
-  const Ball ever = max(start, resting);
-  add("contraction_rate", proposal->rate.rate);
-  add("offset_error_bound", ever * lock.reach(2));
-  add("phase_error_bound", ever * lock.reach(1));
-  add("amplitude_error_bound", ever * lock.reach(0));
   std::optional<BlockRate> late;
   if (proposal->late) {
     // Every error comes below its radius, and stays there.
@@ -117,6 +109,17 @@ Derivation lock_set(const Tree& derivation, const BlockProblem& problem, const B
       objections.emplace_back("the late set is not verified");
     }
   }
+  if (!starts) {
+    return found;
+  }
+  const auto add = [&](const char* name, const Ball& value) {
+    found.quantities.push_back({name, value, Sense::bounds_above});
+  };
+  const Ball ever = max(start, resting);
+  add("contraction_rate", proposal->rate.rate);
+  add("offset_error_bound", ever * lock.reach(2));
+  add("phase_error_bound", ever * lock.reach(1));
+  add("amplitude_error_bound", ever * lock.reach(0));
   const Ball last = late ? rest(disturbance, *late) : resting;
   add("ultimate_offset_error", last * lock.reach(2));
   const Tree* blocks = derivation.at("quantities").find("settling_blocks");

@@ -125,7 +125,8 @@ class BlockVerifier {
     Claim found;
     if (is_required) {
       found.statement = hypotheses_ + design_.required_text(id) + ".";
-      found.verdict = proved_if(certainly_less(at_most("probability_of_losing_lock"),
+      found.verdict = proved_if(is_lock(at_most("offset_error_bound")) &&
+                                certainly_less(at_most("probability_of_losing_lock"),
                                                design_.asked("probability_of_losing_lock_below")));
       found.evidence = {bounded("probability_of_losing_lock")};
     } else if (is_lowest && proved != nullptr) {
@@ -142,6 +143,9 @@ class BlockVerifier {
     return found;
   }
 
+  /// Bins are one apart, and so are the locks about them.
+  [[nodiscard]] static bool is_lock(const Ball& offset_error) { return certainly_less(offset_error, half); }
+
   /// What a derivation in Gaussian noise says, with the numbers that the claim names.
   [[nodiscard]] Claim losing_lock(const Tree& claim, const Tree& proved,
                                   const std::string& hypotheses) const {
@@ -150,7 +154,8 @@ class BlockVerifier {
     Claim found;
     found.is_summary = true;
     found.verdict = proved_if(certainly_less(at_most(&proved, "probability_of_losing_lock"), one) &&
-                              at_most(&proved, "offset_error_bound").finite() &&
+                              is_lock(at_most(&proved, "offset_error_bound")) &&
+                              is_lock(high_of(evidence.at("offset_error_bound"))) &&
                               at_most(&proved, "rms_offset_error").finite());
     for (const char* name : {"probability_of_losing_lock", "offset_error_bound", "rms_offset_error"}) {
       found.evidence.push_back({name, at_most(&proved, name), Sense::bounds_above});

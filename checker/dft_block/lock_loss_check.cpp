@@ -31,9 +31,8 @@ Loss loss_of(const BlockProblem& problem, const BlockNoise& noise, const BlockLo
     const Ball u1 = s[1] - f[1][0] / f[0][0] * s[0];
     const Ball u2 = s[2] - f[2][0] / f[0][0] * s[0] - mixed / second * u1;
     const Ball length = square(s[0]) / f[0][0] + square(u1) / second + square(u2) / third;
-    const Ball share = certainly_positive(slew_share) ? slew_share : Ball::everything();
-    power = power * (one + share);
-    log_factor += half * theta * (one + one / share) * square(problem.slew) * length;
+    power = power * (one + slew_share);
+    log_factor += half * theta * (one + one / slew_share) * square(problem.slew) * length;
   }
   if (!certainly_positive(power) || !certainly_less(power, one) || !certainly_positive(noise.deviation)) {
     return {};
@@ -81,7 +80,8 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   const BlockDrift drift{number("radius"), number("tilt"),         number("growth"),
                          number("weight"), number("floor_weight"), exact_matrix(matrices.at("floor"))};
   const Ball slew_share = number("slew_share");
-  if (!is_drift(drift) || !certainly_at_most(one, set.above) || !certainly_at_most(one, set.below)) {
+  if (!is_drift(drift) || !certainly_positive(slew_share) || !certainly_at_most(one, set.above) ||
+      !certainly_at_most(one, set.below)) {
     objections.emplace_back("the evidence is no set");
     return found;
   }

@@ -41,12 +41,17 @@ class Builder : public nlohmann::json_sax<Json> {
 
  private:
   static constexpr std::size_t kDeepest = 32;
+  /// Of which each takes some hundred bytes; the largest certificate of designs/ has a hundredth of them.
+  static constexpr std::size_t kMostValues = 4'000'000;
 
   bool fail(std::string objection) {
     objection_ = std::move(objection);
     return false;
   }
   bool add(Tree value) {
+    if (++count_ > kMostValues) {
+      return fail("more than " + std::to_string(kMostValues) + " values");
+    }
     if (open_.empty()) {
       root_ = std::move(value);
     } else {
@@ -67,6 +72,7 @@ class Builder : public nlohmann::json_sax<Json> {
   Tree root_;
   std::vector<Tree> open_;
   std::string objection_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace
@@ -147,26 +153,23 @@ long Tree::integer() const {
 }
 
 std::vector<std::string> Tree::unread(std::size_t most) const {
+  // As deep as the file is nested, which the reader limits. Names are copied for what is found alone.
   std::vector<std::string> paths;
-  add_unread("", most, paths);
+  const auto add = [&](const Tree& value, const std::string& name) {
+    for (const std::string& rest : value.unread(most - paths.size())) {
+      paths.push_back(name + (rest.empty() || rest.starts_with('[') ? "" : ".") + rest);
+    }
+  };
+  for (auto member = members_.begin(); member != members_.end() && paths.size() < most; ++member) {
+    add(member->second, member->first);
+  }
+  for (std::size_t i = 0; i < elements_.size() && paths.size() < most; ++i) {
+    add(elements_[i], "[" + std::to_string(i) + "]");
+  }
+  if (members_.empty() && elements_.empty() && !read_ && most > 0) {
+    paths.emplace_back();
+  }
   return paths;
-}
-
-void Tree::add_unread(const std::string& path, std::size_t most, std::vector<std::string>& paths) const {
-  // As deep as the file is nested, which the reader limits.
-  for (const auto& [name, value] : members_) {
-    std::string longer = path;
-    longer.append(path.empty() ? "" : ".").append(name);
-    value.add_unread(longer, most, paths);
-  }
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
-    std::string longer = path;
-    longer.append("[").append(std::to_string(i)).append("]");
-    elements_[i].add_unread(longer, most, paths);
-  }
-  if (members_.empty() && elements_.empty() && !read_ && paths.size() < most) {
-    paths.push_back(path);
-  }
 }
 
 bool Tree::add_key(std::string name) {

@@ -55,7 +55,6 @@ class Tree {
 
  private:
   void require(Kind kind, const char* what) const;
-  void add_unread(const std::string& path, std::size_t most, std::vector<std::string>& paths) const;
 
   Kind kind_ = Kind::nothing;
   mutable bool read_ = false;

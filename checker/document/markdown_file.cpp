@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "checker/document/plain_markdown.hpp"
 #include "checker/document/sha256.hpp"
 
 namespace veritrack::checker {
@@ -20,6 +22,10 @@ std::string word(Verdict verdict) {
 }
 
 using Lines = std::vector<std::string>;
+
+constexpr const char* kSectionOfRequirements = "## What was required";
+/// How a document begins to say that the time was limited.
+constexpr const char* kStopped = "*Stopped by the time limit.* ";
 
 Lines lines_of(const std::string& document) {
   Lines lines;
@@ -33,29 +39,6 @@ Lines lines_of(const std::string& document) {
 /// Whether a claim is about a publication, not about the tracker.
 bool concerns_publication(const std::string& id) {
   return id.starts_with("theorem-") || id.starts_with("proposition-") || id.ends_with("/conditions");
-}
-
-/// The block with the text of the design file: where its lines begin and end. Whoever reads the document sees
-/// a design there, so that its words say nothing of verdicts.
-std::optional<std::pair<std::size_t, std::size_t>> design_text(const Lines& lines, const std::string& hash) {
-  const auto fence = [](const std::string& line) { return line.starts_with("```"); };
-  const auto last = std::find_if(lines.rbegin(), lines.rend(), fence);
-  const auto first =
-      last == lines.rend() ? lines.rend() : std::find_if(last + 1, lines.rend(), [](const auto& line) {
-        return line.starts_with("```") && line.ends_with("toml");
-      });
-  if (first == lines.rend()) {
-    return std::nullopt;
-  }
-  const auto begin = static_cast<std::size_t>(lines.rend() - first);
-  const auto end = static_cast<std::size_t>(lines.rend() - last) - 1;
-  std::string text;
-  for (std::size_t i = begin; i < end; ++i) {
-    text += lines[i] + "\n";
-  }
-  const bool is_it =
-      sha256(text) == hash || (!text.empty() && sha256(text.substr(0, text.size() - 1)) == hash);
-  return is_it ? std::optional(std::pair(begin, end)) : std::nullopt;
 }
 
 /// The lines from that heading to the next, without both; all up to the first heading for an empty one.
@@ -84,73 +67,153 @@ void check_lines(const Lines& section, const std::string& beginning, const Lines
   }
 }
 
-/// "&zwj;" or "&#69;": a character by its name or number.
-bool has_character_reference(const std::string& line) {
-  for (std::size_t begin = line.find('&'); begin != std::string::npos; begin = line.find('&', begin + 1)) {
-    const auto end =
-        std::find_if(line.begin() + static_cast<std::ptrdiff_t>(begin) + 1, line.end(),
-                     [](char c) { return c != '#' && std::isalnum(static_cast<unsigned char>(c)) == 0; });
-    const bool is_empty = end == line.begin() + static_cast<std::ptrdiff_t>(begin) + 1;
-    if (!is_empty && end != line.end() && *end == ';') {
-      return true;
-    }
-  }
-  return false;
+/// What the document says with a verdict, and where: `section` is the heading, empty for the top.
+struct Compared {
+  std::string section;
+  Lines lines;  ///< "| " begins a row of which only the beginning is compared
+};
+
+/// The letters of a heading.
+std::string letters_of(const std::string& heading) {
+  std::string letters;
+  std::copy_if(heading.begin(), heading.end(), std::back_inserter(letters),
+               [](unsigned char c) { return std::isalpha(c) != 0; });
+  return letters;
 }
 
-/// A tag or a comment that goes on in the next line.
-bool has_open_tag(const std::string& line) {
-  const std::size_t begin = line.rfind('<');
-  const bool is_tag = begin != std::string::npos && begin + 1 < line.size() &&
-                      (std::isalpha(static_cast<unsigned char>(line[begin + 1])) != 0 ||
-                       std::string_view("/!?").find(line[begin + 1]) != std::string_view::npos);
-  return is_tag && line.find('>', begin) == std::string::npos;
-}
+/// Reads a document as a renderer does: nothing stands in it that the program does not write, and no verdict
+/// where it was not compared.
+class Elsewhere {
+ public:
+  Elsewhere(const Verification& verified, const std::vector<Compared>& compared)
+      : verified_(verified),
+        compared_(compared),
+        quotations_(verified.quoted.size() < 2 ? Lines{}
+                                               : Lines{quotation_of(verified.quoted[0], verified.quoted[1]),
+                                                       quotation_of(verified.quoted[0], "")}) {}
 
-/// Whether a reader may see a verdict in the line: as it is written; without the marks of Markdown and what
-/// is not ASCII, which may be invisible; or without tags, too. A character reference or the rest of a tag may
-/// hide in any word.
-bool shows_a_verdict(const std::string& line) {
-  std::string unmarked, untagged;
-  bool is_in_tag = false;
-  for (const char letter : line) {
-    const bool is_ascii = static_cast<unsigned char>(letter) < 0x80U;
-    const bool is_mark = !is_ascii || std::string_view("*_`~\\").find(letter) != std::string_view::npos;
-    is_in_tag = letter == '<' || (is_in_tag && letter != '>');
-    unmarked += is_mark ? "" : std::string(1, letter);
-    untagged += is_mark || is_in_tag || letter == '>' ? "" : std::string(1, letter);
+  /// The first objection.
+  [[nodiscard]] std::optional<std::string> objection_to(const Lines& lines) {
+    for (std::size_t i = 1; i < lines.size(); ++i) {  // the first one is compared as a whole
+      const auto refused = fence_.empty() ? outside(lines, i) : inside(lines[i]);
+      if (refused) {
+        return "line " + std::to_string(i + 1) + " of the document " + *refused;
+      }
+    }
+    return fence_.empty() ? std::nullopt : std::optional<std::string>("the document ends within a fence");
   }
-  const Lines seen{line, unmarked, untagged};
-  return has_character_reference(line) || has_open_tag(line) ||
-         std::any_of(seen.begin(), seen.end(), [](const auto& text) {
-           return text.find("PROVED") != std::string::npos || text.find("REFUTED") != std::string::npos;
-         });
-}
 
-/// No verdict stands where it was not compared.
-void check_elsewhere(const Verification& verified, const Lines& lines, const Lines& compared,
-                     Objections& objections) {
-  const auto design = design_text(lines, verified.design_sha256);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (design && i >= design->first && i < design->second) {
-      continue;
+ private:
+  using Refused = std::optional<std::string>;
+
+  Refused outside(const Lines& lines, std::size_t i) {
+    const std::string& line = lines[i];
+    if (line.starts_with("```")) {
+      return open_fence(line);
     }
-    const auto known = std::find_if(compared.begin(), compared.end(), [&](const std::string& one) {
-      return lines[i] == one || (one.starts_with("| ") && lines[i].starts_with(one));
-    });
-    const std::string rest = known == compared.end() ? lines[i] : lines[i].substr(known->size());
-    if (shows_a_verdict(rest)) {
-      objections.push_back("line " + std::to_string(i + 1) +
-                           " of the document gives a verdict that was not verified");
-      return;
+    if (line.starts_with('#')) {
+      if (const Refused refused = open_section(line)) {
+        return refused;
+      }
     }
+    if (std::find(quotations_.begin(), quotations_.end(), line) != quotations_.end()) {
+      // Its letters are the design's; it ends with its line.
+      const bool ends = i + 1 == lines.size() || lines[i + 1].empty();
+      plain_.skip_line();
+      return ends ? std::nullopt : Refused("goes on with the quotation of the design");
+    }
+    const std::string known = known_part(line);
+    if (letters_of(line).starts_with("RequirementVerdict") && section_ != kSectionOfRequirements) {
+      return "begins another table of requirements";
+    }
+    if (!known.empty()) {
+      plain_.skip_line();
+    }
+    return plain_.objection_to(std::string_view(line).substr(known.size()));
   }
-}
+
+  /// How the line begins when that is compared elsewhere.
+  [[nodiscard]] std::string known_part(const std::string& line) const {
+    for (const auto& [section, known] : compared_) {
+      const auto found = std::find_if(known.begin(), known.end(), [&](const std::string& one) {
+        return line == one || (one.starts_with("| ") && line.starts_with(one));
+      });
+      if (section == section_ && found != known.end()) {
+        return *found;
+      }
+    }
+    return "";
+  }
+
+  /// A section in which verdicts are compared is there once.
+  Refused open_section(const std::string& line) {
+    section_ = line.starts_with("## ") ? line : section_;
+    for (const auto& compared : compared_) {
+      const std::string letters = letters_of(compared.section);
+      if (!letters.empty() && letters_of(line).starts_with(letters) &&
+          (line != compared.section || !sections_.insert(line).second)) {
+        return "begins another section on what was verified";
+      }
+    }
+    return std::nullopt;
+  }
+
+  Refused open_fence(const std::string& line) {
+    const std::size_t ticks = std::min(line.find_first_not_of('`'), line.size());
+    fence_ = line.substr(0, ticks);
+    language_ = line.substr(ticks);
+    text_.clear();
+    fenced_refused_.reset();
+    return language_.empty() || language_ == "toml" || language_ == "math"
+               ? std::nullopt
+               : Refused("begins a block of another language");
+  }
+
+  /// What is fenced is quoted when it is the design file; then nothing in it may end the fence.
+  Refused inside(const std::string& line) {
+    if (line == fence_) {
+      fence_.clear();
+      plain_.skip_line();
+      const bool is_design =
+          sha256(text_) == verified_.design_sha256 ||
+          (!text_.empty() && sha256(text_.substr(0, text_.size() - 1)) == verified_.design_sha256);
+      return is_design ? std::nullopt : fenced_refused_;
+    }
+    if (line.find(fence_) != std::string::npos) {
+      return "may end the fence around it";
+    }
+    text_ += line + "\n";
+    if (!fenced_refused_) {
+      fenced_refused_ = plain_.objection_to_fenced(line, language_ == "math");
+    }
+    return std::nullopt;
+  }
+
+  const Verification& verified_;
+  const std::vector<Compared>& compared_;
+  Lines quotations_;
+  PlainMarkdown plain_;
+  std::string section_;  ///< the heading
+  std::set<std::string> sections_;
+  std::string fence_, language_, text_;  ///< of the fence that is open
+  Refused fenced_refused_;
+};
 
 /// "| requirement | **VERDICT** |" of a row of the table.
 std::string first_two_cells(const std::string& row) {
   const std::size_t second = row.find(" | ", row.find(" | ") + 1);
   return row.substr(0, second) + " |";
+}
+
+/// Behind the headline, before anything else that is seen, come the sentences with their verdicts.
+void check_top(const Lines& lines, Objections& objections) {
+  const auto first = std::find_if(lines.begin() + (lines.empty() ? 0 : 1), lines.end(), [](const auto& line) {
+    return !line.empty() && !line.starts_with(kStopped);
+  });
+  const bool is_block = first == lines.end() || first->starts_with("**") || first->starts_with("## ");
+  if (!is_block) {
+    objections.emplace_back("the document says something before the sentences that were verified");
+  }
 }
 
 }  // namespace
@@ -196,19 +259,24 @@ void compare_with_markdown(const Verification& verified, const std::string& cert
     rows.push_back("| " + requirement.text + " | **" + word(requirement.verdict) + "** |");
   }
   Lines found;
-  for (const std::string& line : section(lines, "## What was required")) {
-    if (line.starts_with("| ") && !line.starts_with("| Requirement |") && !line.starts_with("| ---")) {
+  for (const std::string& line : section(lines, kSectionOfRequirements)) {
+    const bool is_head = line == "| Requirement | Verdict | Ground |" || line == "| --- | --- | --- |";
+    if (!line.empty() && !is_head && !rows.empty()) {
       found.push_back(first_two_cells(line));
     }
   }
   if (found != rows) {
     objections.emplace_back("the document says something else than was verified of what is required");
   }
-  Lines compared{first};
-  for (const Lines& some : {top, all, rows}) {
-    compared.insert(compared.end(), some.begin(), some.end());
+  std::vector<Compared> compared{{kSectionOfTheChecker, all}};
+  if (!is_published) {
+    compared.push_back({"", top});
+    compared.push_back({kSectionOfRequirements, rows});
+    check_top(lines, objections);
   }
-  check_elsewhere(verified, lines, compared, objections);
+  if (const auto objection = Elsewhere(verified, compared).objection_to(lines)) {
+    objections.push_back(*objection);
+  }
 }
 
 }  // namespace veritrack::checker

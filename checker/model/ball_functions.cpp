@@ -46,12 +46,12 @@ BallPolynomial value_of_taylor(const std::array<Ball, kTerms + 1>& f, const Ball
     near[k] = f[k].near();
     error = bound_on(error * size + abs(f[k] - Ball(near[k])).upper_double());
   }
-  const BallPolynomial square = x * x;
-  BallPolynomial high(near[2]);
-  high.add(x, near[3]).add(square, near[4]);
-  BallPolynomial value = square * high;
-  value.add(x, near[1]);
-  value += BallPolynomial(near[0]);
+  // By Horner's scheme: what alternates cancels before it is cut off.
+  BallPolynomial value(near[kTerms - 1]);
+  for (std::size_t k = kTerms - 1; k-- > 0;) {
+    value = value * x;
+    value += BallPolynomial(near[k]);
+  }
   return value.widen(error);
 }
 
@@ -159,27 +159,43 @@ BallPolynomial arctangent(const BallPolynomial& x) {
                          certainly_less(narrow, fifth) ? narrow : fifth);
 }
 
+// With the constants x0 and y0 and w = (dx + i dy)/(x0 + i y0) = a + i b the angle is theirs and the
+// imaginary part of log(1 + w), if 1 + a > 0: along the segment to (x, y), which stays in a half plane
+// without the cut, both are continuous. It is that of w (1 - w (1/2 - w (1/3 - w/4))), and of a rest: w^5
+// times the integral of (1 - t)^4/(1 + t w)^5 over t in [0, 1]. Where a >= -c > -1, |1 + t w| >= 1 - t c, and
+// with u = (1 - t)/(1 - t c) the integral is at most that of u^4/(1 - c) over u in [0, 1]. So what is cut off
+// is the same in all directions and of the size of w alone, where a quotient and its arc tangent are far
+// wider.
 BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x) {
   const Ball of_x = x.range();
   const Ball of_y = y.range();
-  const bool is_flat = certainly_less(Ball(std::abs(y.constant())), Ball(std::abs(x.constant())));
-  const BallPolynomial quarter(half * pi());
-  if (is_flat && certainly_positive(of_x)) {
-    return arctangent(y / x);
+  if (!certainly_positive(of_x) && !certainly_positive(of_y) && !certainly_positive(-of_y)) {
+    return BallPolynomial::everything();
   }
-  if (is_flat && certainly_positive(-of_x) && certainly_positive(of_y)) {
-    return BallPolynomial(pi()) + arctangent(y / x);
+  const Ball x0(x.constant());
+  const Ball y0(y.constant());
+  const Ball square_of_length = square(x0) + square(y0);
+  const BallPolynomial by_x(x0 / square_of_length);
+  const BallPolynomial by_y(y0 / square_of_length);
+  const BallPolynomial dx = x - BallPolynomial(x.constant());
+  const BallPolynomial dy = y - BallPolynomial(y.constant());
+  const BallPolynomial a = by_x * dx + by_y * dy;
+  const BallPolynomial b = by_x * dy - by_y * dx;
+  const Ball backward = max(-a.range(), zero).upper();
+  if (!certainly_less(backward, one)) {
+    return BallPolynomial::everything();
   }
-  if (is_flat && certainly_positive(-of_x) && certainly_positive(-of_y)) {
-    return arctangent(y / x) - BallPolynomial(pi());
+  const Ball size = sqrt(square(abs(a.range()).upper()) + square(abs(b.range()).upper()));
+  const Ball remainder = whole_power(size, 5) / (Ball(5.0) * (one - backward));
+  static const Ball third = one / Ball(3.0);
+  BallPolynomial real = BallPolynomial(third) - 0.25 * a;
+  BallPolynomial imaginary = -0.25 * b;
+  for (const double coefficient : {0.5, 1.0}) {
+    const BallPolynomial turned = a * imaginary + b * real;
+    real = BallPolynomial(coefficient) - (a * real - b * imaginary);
+    imaginary = -turned;
   }
-  if (certainly_positive(of_y)) {
-    return quarter - arctangent(x / y);
-  }
-  if (certainly_positive(-of_y)) {
-    return -quarter - arctangent(x / y);
-  }
-  return certainly_positive(of_x) ? arctangent(y / x) : BallPolynomial::everything();
+  return (BallPolynomial(arctangent2(y0, x0)) + a * imaginary + b * real).widen(remainder.upper_double());
 }
 
 BallPolynomial stays_within(const BallPolynomial& x, const BallPolynomial& low, const BallPolynomial& high) {

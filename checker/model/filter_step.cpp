@@ -175,7 +175,7 @@ bool bounds_suit(const ModelRecursion& recursion) {
       is_constant = is_constant && !entry.depends;
     }
   }
-  return is_constant && recursion.has_symmetric_noise();
+  return is_constant;
 }
 
 bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) const {

@@ -14,8 +14,8 @@
 
 namespace veritrack::checker {
 
-/// True only for a filter whose H does not depend on the estimate, and whose Q and R are written as symmetric
-/// matrices: then bounds of the covariance say what they shall.
+/// True only for a filter whose H does not depend on the estimate: then bounds of the covariance say what
+/// they shall. (Q and R are symmetric matrices of every filter: model_recursion.cpp.)
 bool bounds_suit(const ModelRecursion& recursion);
 
 /// What bounds of a covariance have to spare from one sample to the next.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 
 namespace veritrack::checker {
 
@@ -12,6 +13,7 @@ using Kind = FormulaStep::Kind;
 
 constexpr std::size_t kMostSteps = 100'000;
 constexpr int kLargestExponent = 16;
+constexpr int kMostArguments = 3;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -203,14 +205,18 @@ bool Reader::operation() {
     if (waiting_.empty() || waiting_.back().what != Waiting::What::call) {
       fail("a comma outside a function");
     }
-    ++waiting_.back().step.count;
+    if (++waiting_.back().step.count > kMostArguments) {
+      fail("too many arguments");
+    }
     operand_is_next_ = true;
     return true;
   }
   if (take('^')) {
     skip(open_ > 0);
     const std::string exponent = digits();
-    if (exponent.empty() || exponent.size() > 2 || std::stoi(exponent) > kLargestExponent) {
+    // x^0 is 1 where x is defined: a way not to look at x.
+    if (exponent.empty() || exponent.size() > 2 || std::stoi(exponent) > kLargestExponent ||
+        std::stoi(exponent) == 0) {
       fail("an exponent that is not allowed");
     }
     emit({Kind::power, {}, std::stoi(exponent)});
@@ -313,6 +319,27 @@ std::vector<FormulaLine> in_order_of_need(const std::vector<FormulaLine>& lines)
     }
   }
   return ordered;
+}
+
+bool is_limit(const FormulaLine& line) {
+  const FormulaStep& last = line.value.back();
+  return last.kind == Kind::function && last.text == "stays_within";
+}
+
+const FormulaLine* unused_line(const std::vector<FormulaLine>& ordered,
+                               const std::vector<std::string>& results) {
+  std::set<std::string> needed(results.begin(), results.end());
+  for (auto line = ordered.rbegin(); line != ordered.rend(); ++line) {
+    if (!is_limit(*line) && !needed.contains(line->name)) {
+      return &*line;
+    }
+    for (const FormulaStep& step : line->value) {
+      if (step.kind == Kind::name) {
+        needed.insert(step.text);
+      }
+    }
+  }
+  return nullptr;
 }
 
 }  // namespace veritrack::checker

@@ -45,6 +45,13 @@ std::vector<FormulaLine> read_lines(std::string_view text);
 /// that is defined twice, and for lines that need each other.
 std::vector<FormulaLine> in_order_of_need(const std::vector<FormulaLine>& lines);
 
+/// `name = stays_within(x, low, high)`: what has to be shown, whether or not anything needs the name.
+bool is_limit(const FormulaLine& line);
+
+/// A line, no limit, that neither one of `results` nor a limit needs, or nullptr. The lines are in order.
+const FormulaLine* unused_line(const std::vector<FormulaLine>& ordered,
+                               const std::vector<std::string>& results);
+
 /// The value of a formula over any scalar that has arithmetic, sqrt, exp, log, sin, cos, tangent, arcsine,
 /// arccosine, arctangent, arctangent2 and stays_within. `leaf` gives the values of numbers and names.
 /// Throws FormulaError for a function that is unknown, or has the wrong number of arguments.
@@ -53,7 +60,7 @@ Scalar value_of(const Formula& formula, const Leaf& leaf);
 
 // ---- how
 
-/// x^n, by squaring from the highest bit of n down; x^0 is 1.
+/// x^n, by squaring from the highest bit of n down; x^0 is 1, which no formula has.
 template <typename Scalar>
 Scalar whole_power(const Scalar& x, int n) {
   if (n == 0) {

@@ -148,8 +148,7 @@ bool is_seldom_left(const TrackedModel& model, const TubeSet& set, std::int64_t&
   const GaussianTerms& terms = *set.gaussian;
   const bool is_filter = bounds_covariance(set);
   if (is_filter && !bounds_suit(*model.recursion)) {
-    objections.emplace_back(
-        "bounds of a covariance are for filters with a linear measurement and symmetric Q and R");
+    objections.emplace_back("bounds of a covariance are for filters with a linear measurement");
     return false;
   }
   const VectorMonomials monomials(is_filter ? model.recursion->filtered() : model.recursion->states(),

@@ -19,10 +19,6 @@ std::size_t states_of_tubes(const ModelRecursion& recursion, bool bounds_covaria
   return bounds_covariance ? recursion.filtered() : recursion.states();
 }
 
-bool are_equal(const std::optional<AmplitudePart>& a, const std::optional<AmplitudePart>& b) {
-  return a.has_value() == b.has_value() && (!a || (a->low == b->low && a->high == b->high));
-}
-
 /// All sets, in the order of the certificate, by their names; `failed`: those of which one is not verified.
 /// With a part of the verification for each.
 struct ReadSets {
@@ -30,18 +26,12 @@ struct ReadSets {
   std::set<std::string> failed;
 };
 
-/// The set in whose lowest levels one of the long run is: of the same amplitudes; or none.
-const TubeSet* set_around(const std::map<std::string, TubeFamily>& families, const TubeSet& inner) {
+/// The set in whose lowest levels part number `number` of the long run is, or none: that they are for the
+/// same amplitudes is checked of whole families (verified_sets).
+const TubeSet* set_around(const std::map<std::string, TubeFamily>& families, std::size_t number) {
   const auto found = families.find("assumed");
-  if (found == families.end()) {
-    return nullptr;
-  }
-  for (const TubeSet& set : found->second.sets) {
-    if (are_equal(set.amplitudes, inner.amplitudes)) {
-      return &set;
-    }
-  }
-  return nullptr;
+  return found != families.end() && number < found->second.sets.size() ? &found->second.sets[number]
+                                                                       : nullptr;
 }
 
 std::string name_of_part(const TubeSet& set, std::size_t number) {
@@ -82,7 +72,8 @@ ReadSets read_sets(const Tree& tubes, const TrackedModel& tracked, const ModelDe
                           : PhaseTubeCheck(model, set, result.cells).is_never_left(objections));
     }
     if (set.name == kLongRun && objections.empty()) {
-      const TubeSet* around = read.failed.contains("assumed") ? nullptr : set_around(read.families, set);
+      const TubeSet* around =
+          read.failed.contains("assumed") ? nullptr : set_around(read.families, family.sets.size());
       if (around == nullptr) {
         objections.emplace_back("no verified set is around it");
       } else {
@@ -105,6 +96,12 @@ std::map<std::string, TubeFamily> verified_sets(const Tree& tubes, const Tracked
   for (const auto& [name, family] : read.families) {
     Objections objections;
     check_amplitudes(family.sets, design, objections);
+    if (name == kLongRun) {
+      const auto around = read.families.find("assumed");
+      check_same_parts(family.sets,
+                       around == read.families.end() ? std::vector<TubeSet>() : around->second.sets,
+                       objections);
+    }
     if (design.is_constant_in_range) {
       result.parts.push_back({"amplitudes of tubes " + name, objections});
     }
@@ -123,6 +120,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   Objections objections;
   ModelRecursion recursion(tree.at("model"));
   const ModelDesign design = read_model_design(tree, recursion, objections);
+  objections.insert(objections.end(), recursion.objections().begin(), recursion.objections().end());
   if (states_of_tubes(recursion, recursion.filtered() > 0) > kMostStates) {
     objections.emplace_back("too many states");
   }
@@ -136,7 +134,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   const TrackedModel model{&recursion, design.amplitude, design.amplitude_varies};
   const std::map<std::string, TubeFamily> sets =
       verified_sets(certificate.at("tubes"), model, design, result);
-  const ModelClaims claims(tree, design, model, sets, result.cells);
+  const ModelClaims claims(certificate, design, model, sets, result.cells);
   const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
   check_claims(certificate, claims.required(), check, result);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "checker/document/design_number.hpp"
+#include "checker/model/false_lock.hpp"
 #include "checker/model/gaussian_drift.hpp"
 #include "checker/model/long_run.hpp"
 #include "checker/model/start_capture.hpp"
@@ -65,16 +66,38 @@ std::size_t whole_number(const Tree& claim, const char* name, std::size_t most) 
 
 }  // namespace
 
-ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
+ModelClaims::ModelClaims(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
                          const std::map<std::string, TubeFamily>& sets, std::int64_t& cells)
-    : tree_(&tree),
+    : tree_(&certificate.at("design")),
+      claims_(&certificate.at("claims")),
       design_(&design),
       model_(&model),
       sets_(&sets),
       cells_(&cells),
-      words_(tree, std::nullopt, bound_covariance(sets)) {
+      words_(*tree_, std::nullopt, bound_covariance(sets)) {
   Objections said_before;  // by the design
-  units_ = FrequencyWords(tree.at("assume"), said_before);
+  units_ = FrequencyWords(tree_->at("assume"), said_before);
+}
+
+const std::string* ModelClaims::named_error(const std::string& id) const {
+  for (const Tree& claim : claims_->elements()) {
+    const Tree* error = claim.at("id").text() == id ? claim.find("frequency_error") : nullptr;
+    if (error != nullptr) {
+      return &error->text();
+    }
+  }
+  return nullptr;
+}
+
+std::string ModelClaims::in_lock(const std::string& id, const std::string& text) const {
+  const std::string* error = named_error(id);
+  return error == nullptr ? std::string() : text + units_.at_most(*error);
+}
+
+bool ModelClaims::is_lock(const TubeFamily& family, const Ball& error, const Part& part) const {
+  const Ball half_distance = half_distance_to_false_lock(*model_, part ? part->lowest : design_->lowest,
+                                                         part ? part->highest : design_->highest);
+  return certainly_less(error, half_distance) && of(family).error_is_at_most(first_level, error);
 }
 
 std::string ModelClaims::short_text(const std::string& id) const {
@@ -87,23 +110,27 @@ std::string ModelClaims::short_text(const std::string& id) const {
   }
   if (id == kCaptureTime) {
     return "the tracker is in the set \"" + deciding_name() + "\" of the certificate after at most " +
-           design_->captured_within->text + " samples";
+           design_->captured_within->text + " samples" +
+           in_lock(id, ", and there the frequency error stays at or below ");
   }
+  // Asked only of claims about lock: what is asked for counts as read.
+  const auto in_set = [&] { return in_lock(id, " in which the frequency error stays at or below "); };
   if (id == kLargestNoise) {
     return "the tracker tolerates noise up to " + design_->largest_noise->text +
-           ": a certified invariant set exists";
+           ": a certified invariant set exists" + in_set();
   }
   if (id == kLargestSlew) {
     return "the tracker tolerates a slew up to " + design_->largest_slew->text +
-           ": a certified invariant set exists";
+           ": a certified invariant set exists" + in_set();
   }
   if (id == kRadius) {
-    return "a certified invariant set contains frequency errors up to " + design_->radius->text +
-           " at every phase";
+    return "a certified invariant set" + in_set() + " contains frequency errors up to " +
+           design_->radius->text + " at every phase";
   }
   if (id == kLosingLock) {
-    return "the probability of losing lock is below " + design_->losing_lock->text + " " +
-           words_.stretch_of_samples();
+    const std::string exceeding = in_lock(id, ", its frequency error exceeding ");
+    return "the probability of losing lock" + exceeding + (exceeding.empty() ? "" : ",") + " is below " +
+           design_->losing_lock->text + " " + words_.stretch_of_samples();
   }
   if (id == kBias) {
     return "the mean frequency error is at most " + design_->bias->text;
@@ -185,12 +212,10 @@ const TubeFamily* ModelClaims::long_run_set(const Part& part) const {
 }
 
 std::vector<TubeSet> ModelClaims::reached_by(const TubeFamily& family, const Ball& sample) const {
-  const TubeFamily* inner = long_run_set();
-  // Of the same parts, which go in the same order (model_certificate.cpp).
-  const bool has_inner = inner != nullptr && inner->sets.size() == family.sets.size();
+  const TubeFamily* inner = long_run_set();  // of the same parts (check_same_parts)
   std::vector<TubeSet> reached;
   for (std::size_t k = 0; k < family.sets.size(); ++k) {
-    reached.push_back(reached_by(family.sets[k], has_inner ? &inner->sets[k] : nullptr, sample));
+    reached.push_back(reached_by(family.sets[k], inner != nullptr ? &inner->sets.at(k) : nullptr, sample));
   }
   return reached;
 }
@@ -260,24 +285,28 @@ Claim ModelClaims::settling() const {
   return found;
 }
 
-Claim ModelClaims::size(const std::string& id) const {
+Claim ModelClaims::size(const Tree& claim) const {
+  const std::string& id = claim.at("id").text();
+  const Ball error = written(claim, "frequency_error");
   Claim found;
+  // A set that is never left, and tolerates at least so much.
+  const auto tolerates = [&](double (TubeFamily::*tolerated)() const, const Ball& required) {
+    return std::any_of(sets_->begin(), sets_->end(), [&](const auto& set) {
+      return set.first != kLongRun && !set.second.is_gaussian() && covers_all(set.second) &&
+             certainly_at_most(required, Ball((set.second.*tolerated)())) && is_lock(set.second, error);
+    });
+  };
   if (id == kLargestNoise) {
     found.statement = words_.constant_tone();
-    found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
-      return covers_all(set.second) &&
-             certainly_at_most(design_->largest_noise->value, Ball(set.second.noise()));
-    }));
+    found.verdict = proved_if(tolerates(&TubeFamily::noise, design_->largest_noise->value));
   } else if (id == kLargestSlew) {
     found.statement = words_.tone_in_band() + ", without noise";
-    found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
-      return covers_all(set.second) &&
-             certainly_at_most(design_->largest_slew->value, Ball(set.second.slew()));
-    }));
+    found.verdict = proved_if(tolerates(&TubeFamily::slew, design_->largest_slew->value));
   } else {
     const TubeFamily* set = deciding_set();
     found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy());
-    found.verdict = proved_if(set != nullptr && of(*set).contains_errors(design_->radius->value));
+    found.verdict =
+        proved_if(set != nullptr && of(*set).contains_errors(design_->radius->value) && is_lock(*set, error));
   }
   found.statement += ", " + short_text(id) + ".";
   return found;
@@ -332,12 +361,13 @@ bool ModelClaims::is_seldom_left(const TubeFamily* set, const Ball& deviation, c
   return is_enough(share) && of(*set).contains_starts(design_->start_within, share);
 }
 
-Claim ModelClaims::required_lock() const {
+Claim ModelClaims::required_lock(const Tree& claim) const {
+  const TubeFamily* set = find("gaussian");
   Claim found;
   found.statement = words_.constant_tone() + words_.gaussian_noise() + words_.start_inside("gaussian") +
                     ", " + short_text(kLosingLock) + ".";
-  found.verdict =
-      proved_if(is_seldom_left(find("gaussian"), *design_->deviation, design_->losing_lock->value, true));
+  found.verdict = proved_if(is_seldom_left(set, *design_->deviation, design_->losing_lock->value, true) &&
+                            is_lock(*set, written(claim, "frequency_error")));
   return found;
 }
 
@@ -358,7 +388,7 @@ Claim ModelClaims::told_lock(const Tree& claim) const {
                     ", its frequency error exceeding " + units_.at_most(claim.at("frequency_error").text()) +
                     " at one of them, is at most " + claim.at("probability").text() + ".";
   found.verdict = proved_if(is_seldom_left(set, deviation, written(claim, "probability"), false) &&
-                            of(*set).error_is_at_most(first_level, written(claim, "frequency_error")));
+                            is_lock(*set, written(claim, "frequency_error")));
   return found;
 }
 
@@ -387,7 +417,7 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   return found;
 }
 
-Claim ModelClaims::captured_in_time() const {
+Claim ModelClaims::captured_in_time(const Tree& claim) const {
   constexpr double kMostSamples = 100'000.0;
   constexpr std::size_t kPhases = 16;
   const TubeFamily* set = deciding_set();
@@ -397,7 +427,7 @@ Claim ModelClaims::captured_in_time() const {
   found.statement = words_.constant_tone() + words_.assumed_noise(design_->is_noisy()) +
                     words_.started_exactly() + ", " + short_text(kCaptureTime) + ".";
   found.verdict = proved_if(
-      is_of_one_amplitude(set) && samples >= 1.0 &&
+      is_of_one_amplitude(set) && samples >= 1.0 && is_lock(*set, written(claim, "frequency_error")) &&
       is_captured(*model_, set->sets.front(),
                   {design_->start, design_->noise, static_cast<std::size_t>(samples), {}, kPhases, 1},
                   *cells_));
@@ -424,7 +454,7 @@ Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
   found.statement = words.constant_tone() + words.assumed_noise(design_->is_noisy()) +
                     words.started_exactly() + ", the tracker is in the set \"" + deciding_name() +
                     "\" of the certificate after at most " + claim.at("samples").text() + " samples";
-  bool certain = is_of_one_amplitude(set) && of(*set).error_is_at_most(first_level, after);
+  bool certain = is_of_one_amplitude(set) && is_lock(*set, after, part);
   if (const Tree* error = claim.find("frequency_error_before")) {
     found.statement += ", with a frequency error of at most " + units_.at_most(error->text()) + " until then";
     start.frequency_error = written(claim, "frequency_error_before");
@@ -438,12 +468,14 @@ Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
 }
 
 const TubeFamily* ModelClaims::largest(std::initializer_list<const char*> names,
-                                       double (TubeFamily::*tolerated)() const, const Part& part) const {
+                                       double (TubeFamily::*tolerated)() const, const Ball& error,
+                                       const Part& part) const {
   const TubeFamily* found = nullptr;
   for (const char* name : names) {
     const TubeFamily* set = find(name, part);
     if (set != nullptr && !set->is_gaussian() &&
-        (set->*tolerated)() > (found != nullptr ? (found->*tolerated)() : 0.0)) {
+        (set->*tolerated)() > (found != nullptr ? (found->*tolerated)() : 0.0) &&
+        is_lock(*set, error, part)) {
       found = set;
     }
   }
@@ -460,35 +492,42 @@ std::string by_set(const TubeFamily* set, const std::string& usual) {
 }  // namespace
 
 Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
-  const TubeFamily* noise = largest({"noise", "assumed", "slew"}, &TubeFamily::noise, part);
+  const TubeFamily* noise =
+      largest({"noise", "assumed", "slew"}, &TubeFamily::noise, written(claim, "frequency_error"), part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
   found.statement = words.constant_tone() + ", the tracker tolerates noise up to " +
-                    claim.at("noise").text() + by_set(noise, "noise");
+                    claim.at("noise").text() + by_set(noise, "noise") +
+                    ": a certified invariant set exists in which the frequency error stays at or below " +
+                    units_.at_most(claim.at("frequency_error").text());
   const Ball tolerated = written(claim, "noise");
   bool certain =
       noise != nullptr && certainly_positive(tolerated) && certainly_at_most(tolerated, Ball(noise->noise()));
   if (const Tree* errors = claim.find("reach")) {
     const Ball reach = written(claim, "reach");
-    found.statement += ", and without noise a certified invariant set contains frequency errors up to " +
-                       units_.at_least(errors->text()) + " at every phase.";
+    const Ball within = written(claim, "reach_frequency_error");
+    found.statement += ", and without noise a certified invariant set in which it stays at or below " +
+                       units_.at_most(claim.at("reach_frequency_error").text()) +
+                       " contains frequency errors up to " + units_.at_least(errors->text()) +
+                       " at every phase";
     // A set for some noise is one without noise, too.
     const auto contains = [&](const char* name) {
       const TubeFamily* set = find(name, part);
-      return set != nullptr && !set->is_gaussian() && of(*set).contains_errors(reach);
+      return set != nullptr && !set->is_gaussian() && of(*set).contains_errors(reach) &&
+             is_lock(*set, within, part);
     };
     certain = certain && certainly_positive(reach) &&
               (contains("starts") || contains("assumed") || contains("noise") || contains("slew"));
-  } else {
-    found.statement += ": a certified invariant set exists.";
   }
+  found.statement += ".";
   found.verdict = proved_if(certain);
   return found;
 }
 
 Claim ModelClaims::slew_limit(const Tree& claim, const Part& part) const {
-  const TubeFamily* set = largest({"slew", "assumed"}, &TubeFamily::slew, part);
+  const TubeFamily* set =
+      largest({"slew", "assumed"}, &TubeFamily::slew, written(claim, "frequency_error"), part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   const Ball slew = written(claim, "slew");
   bool certain = set != nullptr && certainly_positive(slew) && certainly_at_most(slew, Ball(set->slew()));
@@ -503,7 +542,9 @@ Claim ModelClaims::slew_limit(const Tree& claim, const Part& part) const {
     found.statement += ", without noise";
   }
   found.statement += ", the tracker tolerates a slew up to " + units_.slew(claim.at("slew").text()) +
-                     by_set(set, "slew") + ": a certified invariant set exists.";
+                     by_set(set, "slew") +
+                     ": a certified invariant set exists in which the frequency error stays at or below " +
+                     units_.at_most(claim.at("frequency_error").text()) + ".";
   found.verdict = proved_if(certain);
   return found;
 }
@@ -544,12 +585,12 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
                 : id == kSlewLimit             ? slew_limit(claim, part)
                 : id == kSteadyState           ? steady_state(claim, part)
                 : is_lock                      ? told_lock(claim)
-                : id == kLosingLock            ? required_lock()
+                : id == kLosingLock            ? required_lock(claim)
                 : id == kErrorBound            ? bound()
                 : id == kSettlingTime          ? settling()
-                : id == kCaptureTime           ? captured_in_time()
+                : id == kCaptureTime           ? captured_in_time(claim)
                 : id == kBias || id == kRipple ? long_run(id)
-                                               : size(id);
+                                               : size(claim);
   check_claim(claim, found, objections);
   return found;
 }

@@ -17,8 +17,8 @@ namespace veritrack::checker {
 
 class ModelClaims {
  public:
-  /// `sets`: those that are verified, by name. All must outlive this.
-  ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
+  /// Of a certificate with this design. `sets`: those that are verified, by name. All must outlive this.
+  ModelClaims(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
               const std::map<std::string, TubeFamily>& sets, std::int64_t& cells);
 
   /// What [require] asks for.
@@ -51,30 +51,40 @@ class ModelClaims {
   /// Starts as they are assumed are in the set.
   [[nodiscard]] bool contains_assumed_starts(const TubeFamily& family) const;
   [[nodiscard]] bool settles(const TubeFamily& family) const;
+  /// The frequency is defined in the whole set, and its error stays at or below this, which is nearer to the
+  /// true lock than to any other that the formulas know (false_lock.hpp): what is said of lock is said of
+  /// such sets alone.
+  [[nodiscard]] bool is_lock(const TubeFamily& family, const Ball& error, const Part& part = {}) const;
+  /// The frequency error that the claim of this id names, and with that number `text`; nothing where it names
+  /// none.
+  [[nodiscard]] const std::string* named_error(const std::string& id) const;
+  [[nodiscard]] std::string in_lock(const std::string& id, const std::string& text) const;
 
   [[nodiscard]] std::string short_text(const std::string& id) const;
   [[nodiscard]] Claim bound() const;
   [[nodiscard]] Claim settling() const;
-  [[nodiscard]] Claim size(const std::string& id) const;
+  [[nodiscard]] Claim size(const Tree& claim) const;
   [[nodiscard]] Claim long_run(const std::string& id) const;
   /// In Gaussian noise of this deviation the assumed starts leave the set with a probability of at most so
   /// much, or less than that.
   [[nodiscard]] bool is_seldom_left(const TubeFamily* set, const Ball& deviation, const Ball& probability,
                                     bool strictly) const;
-  [[nodiscard]] Claim required_lock() const;
+  [[nodiscard]] Claim required_lock(const Tree& claim) const;
   [[nodiscard]] Claim told_lock(const Tree& claim) const;
   [[nodiscard]] Claim capture(const Tree& claim, const Part& part) const;
-  [[nodiscard]] Claim captured_in_time() const;
+  [[nodiscard]] Claim captured_in_time(const Tree& claim) const;
   [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;
-  /// Of the sets with these names that cover the part and are never left, the one with the largest noise or
-  /// slew, the first of equal ones; none where all are 0.
+  /// Of the sets with these names that cover the part and are never left, those that are a lock with this
+  /// error: the one with the largest noise or slew, the first of equal ones; none where all are 0.
   [[nodiscard]] const TubeFamily* largest(std::initializer_list<const char*> names,
-                                          double (TubeFamily::*tolerated)() const, const Part& part) const;
+                                          double (TubeFamily::*tolerated)() const, const Ball& error,
+                                          const Part& part) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim slew_limit(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;
 
-  const Tree* tree_;
+  const Tree* tree_;    ///< the design
+  const Tree* claims_;  ///< of the certificate
   const ModelDesign* design_;
   const TrackedModel* model_;
   const std::map<std::string, TubeFamily>* sets_;

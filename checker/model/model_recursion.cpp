@@ -157,19 +157,28 @@ void ModelRecursion::read_lines_of(const std::string& text, const std::vector<st
   Slots variables = numbered(inputs);
   std::for_each(inputs.begin(), inputs.end(), require_free);
   int next = static_cast<int>(inputs.size());
-  for (const FormulaLine& line : in_order_of_need(read_lines(text))) {
+  const std::vector<FormulaLine> ordered = in_order_of_need(read_lines(text));
+  for (const FormulaLine& line : ordered) {
     require_free(line.name);
     lines_.push_back(looked_up(line.value, variables));
+    if (is_limit(line)) {
+      limits_.push_back(static_cast<std::size_t>(next));
+    }
     if (constant_slots_.contains(line.name) || !variables.try_emplace(line.name, next++).second) {
       throw FormulaError(line.name + " has two meanings");
     }
   }
+  std::vector<std::string> result_names;
   for (const std::string& state : states) {
-    const auto found = variables.find(state + "'");
+    result_names.push_back(state + "'");
+    const auto found = variables.find(result_names.back());
     if (found == variables.end()) {
       throw FormulaError("the state " + state + " has no next value");
     }
     results_.push_back(static_cast<std::size_t>(found->second));
+  }
+  if (const FormulaLine* unused = unused_line(ordered, result_names)) {
+    objections_.push_back("nothing needs the line " + unused->name);
   }
 }
 
@@ -210,13 +219,16 @@ void ModelRecursion::read_filter(const Tree& filter) {
   }
   process_noise_ = looked_up_matrix(filter.at("Q"), filtered_, {});
   measurement_noise_ = looked_up_matrix(filter.at("R"), measure_.size(), {});
-  is_symmetric_ = true;
+  bool is_symmetric = true;
   for (const Tree* matrix : {&filter.at("Q"), &filter.at("R")}) {
     for (std::size_t i = 0; i < matrix->elements().size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        is_symmetric_ = is_symmetric_ && matrix->at(i).at(j).text() == matrix->at(j).at(i).text();
+        is_symmetric = is_symmetric && matrix->at(i).at(j).text() == matrix->at(j).at(i).text();
       }
     }
+  }
+  if (!is_symmetric) {
+    objections_.emplace_back("Q and R are covariances, written as symmetric matrices");
   }
   if (const Tree* jacobian = filter.find("jacobian")) {
     jacobian_ = looked_up_matrix(*jacobian, filtered_, estimated);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checker/document/json_tree.hpp"
+#include "checker/document/statement.hpp"
 #include "checker/model/formula.hpp"
 #include "checker/model/jet.hpp"
 
@@ -20,6 +21,8 @@ class ModelRecursion {
   /// From the member "model" of a design. Throws FormulaError or Malformed.
   explicit ModelRecursion(const Tree& model);
 
+  /// What is wrong with it as a design, which could be read.
+  [[nodiscard]] const Objections& objections() const { return objections_; }
   [[nodiscard]] std::size_t states() const { return state_names_.size(); }
   [[nodiscard]] std::size_t samples() const { return sample_names_.size(); }
   [[nodiscard]] const std::vector<std::string>& state_names() const { return state_names_; }
@@ -39,8 +42,6 @@ class ModelRecursion {
   }
   /// How many states a filter estimates; 0 when the tracker is none.
   [[nodiscard]] std::size_t filtered() const { return filtered_; }
-  /// Whether Q and R are written as symmetric matrices.
-  [[nodiscard]] bool has_symmetric_noise() const { return is_symmetric_; }
   /// Of a filter at an estimate, with a sample.
   template <typename Scalar>
   struct FilterParts {
@@ -92,7 +93,7 @@ class ModelRecursion {
                             : Scalar(constants_[static_cast<std::size_t>(-1 - leaf.slot)]);
     });
   }
-  /// The results of the lines.
+  /// The results of the lines. Where a limit is not known to be kept, nothing is known of them.
   template <typename Scalar>
   [[nodiscard]] std::vector<Scalar> results(std::vector<Scalar> variables) const {
     for (const Formula& line : lines_) {
@@ -101,6 +102,9 @@ class ModelRecursion {
     std::vector<Scalar> next;
     for (const std::size_t slot : results_) {
       next.push_back(variables[slot]);
+    }
+    for (const std::size_t limit : limits_) {
+      next.front() = next.front() + Scalar(Ball(0.0)) * variables[limit];
     }
     return next;
   }
@@ -115,6 +119,7 @@ class ModelRecursion {
   [[nodiscard]] std::vector<Scalar> next_of_filter(const std::vector<Scalar>& state,
                                                    const std::vector<Scalar>& sample) const;
 
+  Objections objections_;
   std::vector<std::string> sample_names_;
   std::vector<std::string> state_names_;
   std::vector<bool> is_angle_;
@@ -122,11 +127,11 @@ class ModelRecursion {
   std::vector<Ball> constants_;
   std::vector<Formula> lines_;  ///< of the step, or of the filter's prediction
   std::vector<std::size_t> results_;
+  std::vector<std::size_t> limits_;  ///< lines that have to be shown, whatever needs them
   Formula frequency_;
   std::vector<Formula> signal_;
   // Of a filter: how many states it estimates (0 for none), and its formulas of these.
   std::size_t filtered_ = 0;
-  bool is_symmetric_ = false;
   std::vector<Formula> measure_;
   Matrix process_noise_, measurement_noise_, jacobian_;
 };

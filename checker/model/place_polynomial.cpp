@@ -118,7 +118,8 @@ BallPolynomial linear_combination(const std::vector<double>& factors,
   std::array<double, BallPolynomial::kPlaces> sum{};
   double error = 0.0;
   double size = 0.0;
-  std::size_t terms = 12;
+  // Each term is multiplied once, and added up to as often as there are terms.
+  std::size_t roundings = kRoundingsOfFactor + 4;
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const double factor = factors[i];
     if (factor == 0.0) {
@@ -132,10 +133,10 @@ BallPolynomial linear_combination(const std::vector<double>& factors,
     }
     error += std::abs(factor) * functions[i].error;
     size += norm;
-    ++terms;
+    ++roundings;
   }
-  spend(1 + static_cast<std::int64_t>(terms / 8));
-  return BallPolynomial::of_places(sum, bound_on(error + static_cast<double>(terms) * kRounding * size));
+  spend(1 + static_cast<std::int64_t>(roundings / 8));
+  return BallPolynomial::of_places(sum, bound_on(error + static_cast<double>(roundings) * kRounding * size));
 }
 
 }  // namespace veritrack::checker

@@ -32,8 +32,10 @@ std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, d
 /// x y, where y is a function of z alone.
 PlacePolynomial product_with_power(const PlacePolynomial& x, const PlacePolynomial& y);
 
-/// The sum of factors times functions, of which there are as many. Factors may be wrong by up to eight
-/// roundings.
+/// By so many roundings each factor of a linear combination may be wrong.
+inline constexpr std::size_t kRoundingsOfFactor = 8;
+
+/// The sum of factors times functions, of which there are as many.
 BallPolynomial linear_combination(const std::vector<double>& factors,
                                   const std::vector<PlacePolynomial>& functions);
 

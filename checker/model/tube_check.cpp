@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <tuple>
 
 #include "checker/model/filter_step.hpp"
 #include "checker/model/length_bound.hpp"
@@ -62,6 +66,41 @@ bool is_wider_in_frequency(const PhaseTube& tube, const TubePart& part) {
   constexpr double kTurn = 6.283;
   return kMore * part.half_z * tube.half_width > kTurn * part.half_turn;
 }
+
+/// Whether halving the frequencies of a part leaves less of what is cut off than halving its phases does.
+/// Both are tried once for all parts of the same widths, in the middle of a turn: whichever part asks first,
+/// the answer is the same. A guess, as everything that chooses parts.
+class TriedHalvings {
+ public:
+  /// `map_over` is the step for the pair of levels of the tube, both with their numbers.
+  bool by_frequency(std::size_t number, std::size_t pair, const PhaseTube& tube, const TubePart& part,
+                    const std::function<std::vector<BallPolynomial>(const TubePart&)>& map_over) {
+    const std::lock_guard lock(mutex_);
+    const auto [place, is_new] = tried_.try_emplace({number, pair, part.half_turn, part.half_z}, false);
+    if (is_new) {
+      const double of_narrower =
+          cut_off(map_over({kMiddle, part.half_turn, 0.0, part.half_z / 2.0, part.z_error}));
+      const double of_shorter =
+          cut_off(map_over({kMiddle, part.half_turn / 2.0, 0.0, part.half_z, part.z_error}));
+      place->second =
+          of_narrower == of_shorter ? is_wider_in_frequency(tube, part) : of_narrower < of_shorter;
+    }
+    return place->second;
+  }
+
+ private:
+  static constexpr double kMiddle = 0.5;
+  static double cut_off(const std::vector<BallPolynomial>& map) {
+    double sum = 0.0;
+    for (const BallPolynomial& component : map) {
+      sum += component.error() * component.error();
+    }
+    return sum;
+  }
+
+  std::mutex mutex_;
+  std::map<std::tuple<std::size_t, std::size_t, double, double>, bool> tried_;
+};
 
 /// Of a filter: with the largest radius also that the bounds of the covariance are kept.
 PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterStep& step,
@@ -146,13 +185,13 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   }
   const bool is_filter = bounds_covariance(*set_);
   if (is_filter && !bounds_suit(recursion)) {
-    objections.emplace_back(
-        "bounds of a covariance are for filters with a linear measurement and symmetric Q and R");
+    objections.emplace_back("bounds of a covariance are for filters with a linear measurement");
     return false;
   }
   const VectorMonomials monomials(is_filter ? recursion.filtered() : recursion.states(),
                                   is_noisy ? recursion.samples() : 0, moves ? 1 : 0);
   const std::vector<Ball> common = common_levels(*set_);
+  TriedHalvings tried;
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& pairs) {
     const PhaseTube& tube = set_->tubes[number];
     PartAnswer answer;
@@ -167,7 +206,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
     }
     double by_phase = 0.0;
     double by_frequency = 0.0;
-    bool is_by_error = false;
+    std::optional<std::size_t> by_error;
     for (const std::size_t j : pairs) {
       const double radius = tube.levels[j];
       const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set_->noise)); };
@@ -175,12 +214,16 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
       const double low_end = low_end_of(*set_, tube, j, common);
       if (!shrinks(bound, tube, j, low_end, bound_up_to)) {
         answer.open.push_back(j);
-        is_by_error = is_by_error || fails_by_error(bound, tube.shrinking[j], low_end);
+        by_error = fails_by_error(bound, tube.shrinking[j], low_end) ? j : by_error;
         by_phase += bound.by_phase() / radius;
         by_frequency += bound.by_frequency() / radius;
       }
     }
-    answer.halve_frequencies = is_by_error ? is_wider_in_frequency(tube, part) : by_frequency > by_phase;
+    const auto map_over = [&](const TubePart& over) {
+      return TubeStep(*model_, tube, over, monomials, set_->slew).map(tube.levels[*by_error], set_->noise);
+    };
+    answer.halve_frequencies =
+        by_error ? tried.by_frequency(number, *by_error, tube, part, map_over) : by_frequency > by_phase;
     return answer;
   };
   std::vector<FirstGrid> grids;

@@ -1,5 +1,6 @@
 #include "checker/model/tube_cover.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -91,32 +92,30 @@ bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, cons
 }  // namespace
 
 bool certain_everywhere(const std::vector<FirstGrid>& tubes, const PartQuestion& ask, std::int64_t& cells) {
-  struct Item {
-    std::size_t tube;
-    TubePart part;
-  };
-  std::vector<Item> items;
+  // Of parts only their number is kept: a certificate chooses it.
+  std::vector<std::size_t> ends;
+  std::size_t count = 0;
   bool all_are_asked = !tubes.empty();
-  for (std::size_t tube = 0; tube < tubes.size(); ++tube) {
-    const FirstGrid& parts = tubes[tube];
-    spend(static_cast<std::int64_t>(parts.phases * parts.frequencies));
+  for (const FirstGrid& parts : tubes) {
     all_are_asked = all_are_asked && parts.phases > 0 && parts.frequencies > 0 && parts.questions > 0;
-    for (std::size_t q = 0; q < parts.frequencies; ++q) {
-      for (std::size_t p = 0; p < parts.phases; ++p) {
-        items.push_back({tube, TubePart::of_grid(p, parts.phases, q, parts.frequencies)});
-      }
-    }
+    count += parts.phases * parts.frequencies;
+    ends.push_back(count);
   }
   std::atomic<std::int64_t> all_cells = 0;
-  const std::size_t failed = first_failure(items.size(), [&](std::size_t k) {
-    std::int64_t of_item = 0;
-    const std::size_t tube = items[k].tube;
-    const bool certain = is_certain(tube, items[k].part, tubes[tube].questions, ask, of_item);
-    all_cells += of_item;
+  const std::size_t failed = first_failure(count, [&](std::size_t k) {
+    spend();
+    const auto tube = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), k) - ends.begin());
+    const FirstGrid& parts = tubes[tube];
+    const std::size_t place = k - (ends[tube] - parts.phases * parts.frequencies);
+    const TubePart part =
+        TubePart::of_grid(place % parts.phases, parts.phases, place / parts.phases, parts.frequencies);
+    std::int64_t of_part = 0;
+    const bool certain = is_certain(tube, part, parts.questions, ask, of_part);
+    all_cells += of_part;
     return certain;
   });
   cells += all_cells;
-  return all_are_asked && failed == items.size();
+  return all_are_asked && failed == count;
 }
 
 }  // namespace veritrack::checker

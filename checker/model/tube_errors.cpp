@@ -178,6 +178,24 @@ void take_away_common(std::vector<BallPolynomial>& errors) {
   }
 }
 
+/// Those of which one may be the largest or the smallest, about: where others vary does not matter.
+std::vector<BallPolynomial> which_may_be_extreme(const std::vector<BallPolynomial>& errors) {
+  double largest = errors.front().range().lower_double();
+  double smallest = errors.front().range().upper_double();
+  for (const BallPolynomial& error : errors) {
+    largest = std::max(largest, error.range().lower_double());
+    smallest = std::min(smallest, error.range().upper_double());
+  }
+  std::vector<BallPolynomial> extreme;
+  for (const BallPolynomial& error : errors) {
+    const Ball range = error.range();
+    if (range.upper_double() >= largest || range.lower_double() <= smallest) {
+      extreme.push_back(error);
+    }
+  }
+  return extreme;
+}
+
 }  // namespace
 
 bool PhaseTubeCheck::holds_for_turns(
@@ -213,17 +231,18 @@ bool PhaseTubeCheck::holds_for_turns(
     if (without_common) {
       take_away_common(errors);
     }
-    for (const BallPolynomial& error : errors) {
-      extent.add(error);
-    }
     if (holds(errors)) {
       continue;
     }
-    if (extent.is_in_frequency() && here.half_z > kLeastWidth) {
+    for (const BallPolynomial& error : without_common ? which_may_be_extreme(errors) : errors) {
+      extent.add(error);
+    }
+    const bool may_double = here.phases < kMost;
+    if (here.half_z > kLeastWidth && (extent.is_in_frequency() || !may_double)) {
       const double less = here.half_z / 2.0;
       open.push_back({here.tube, here.z - less, less, here.phases});
       open.push_back({here.tube, here.z + less, less, here.phases});
-    } else if (here.phases < kMost) {
+    } else if (may_double) {
       open.push_back({here.tube, here.z, here.half_z, 2 * here.phases});
     } else {
       certain = false;

@@ -10,8 +10,8 @@ namespace veritrack::checker {
 namespace {
 
 constexpr std::size_t kMostParts = 1U << 16U;
-constexpr std::size_t kMostPowers = 32;
 constexpr std::size_t kMostHarmonics = 512;
+constexpr std::size_t kMostLevels = 1024;
 
 double double_from(const Tree& number) {
   const Ball exact = exact_number(number);
@@ -94,6 +94,9 @@ PhaseTube tube_from(const Tree& cell, std::size_t all_states, std::size_t estima
   tube.frequency = double_from(cell.at("frequency"));
   tube.half_width = double_from(cell.at("half_width"));
   tube.levels = doubles_from(cell.at("levels"));
+  if (tube.levels.size() > kMostLevels) {
+    throw Malformed("a tube of too many levels");
+  }
   if (shrinks) {
     tube.shrinking = doubles_from(cell.at("shrinking"));
   }

@@ -12,6 +12,9 @@
 
 namespace veritrack::checker {
 
+/// The most powers of z in a series, z^0 included: what is read has no more.
+inline constexpr std::size_t kMostPowers = 32;
+
 /// Re sum_h sum_d c[h][d] z^d exp(i h phi). Nothing: 0.
 using PhaseSeries = std::vector<std::vector<std::complex<double>>>;
 

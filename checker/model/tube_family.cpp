@@ -40,4 +40,17 @@ void check_amplitudes(const std::vector<TubeSet>& sets, const ModelDesign& desig
   }
 }
 
+void check_same_parts(const std::vector<TubeSet>& sets, const std::vector<TubeSet>& others,
+                      Objections& objections) {
+  const bool are_same = std::equal(
+      sets.begin(), sets.end(), others.begin(), others.end(), [](const TubeSet& a, const TubeSet& b) {
+        return a.amplitudes.has_value() == b.amplitudes.has_value() &&
+               (!a.amplitudes || (certainly_equal(Ball(a.amplitudes->low), Ball(b.amplitudes->low)) &&
+                                  certainly_equal(Ball(a.amplitudes->high), Ball(b.amplitudes->high))));
+      });
+  if (!are_same || sets.empty()) {
+    objections.emplace_back("its parts of the amplitudes are not those of the set around it");
+  }
+}
+
 }  // namespace veritrack::checker

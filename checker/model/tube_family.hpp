@@ -46,6 +46,11 @@ TrackedModel on_amplitudes_of(const TubeSet& set, const TrackedModel& model, con
 /// gaps and cover those of the design.
 void check_amplitudes(const std::vector<TubeSet>& sets, const ModelDesign& design, Objections& objections);
 
+/// Objects unless two families are for the same parts of the amplitudes, in the same order: Theorem 10 is
+/// about one part, of which the sets of both are.
+void check_same_parts(const std::vector<TubeSet>& sets, const std::vector<TubeSet>& others,
+                      Objections& objections);
+
 /// What PhaseTubeCheck says of every set.
 class FamilyCheck {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "checker/model/place_polynomial.hpp"
@@ -9,6 +10,21 @@
 namespace veritrack::checker {
 
 namespace {
+
+/// Whether all that becomes (d over k) on the way, d < powers, is a whole number that a double has exactly.
+constexpr bool has_exact_binomials(std::size_t powers) {
+  constexpr std::size_t kMost = std::size_t{1} << 53U;
+  for (std::size_t k = 0; k < powers; ++k) {
+    std::size_t binomial = 1;
+    for (std::size_t d = k; d < powers; ++d) {
+      if (binomial > kMost / (d + 1)) {
+        return false;
+      }
+      binomial = binomial * (d + 1) / (d + 1 - k);
+    }
+  }
+  return true;
+}
 
 /// cos and sin of h phi, times powers of z, for all that a tube needs.
 class HarmonicBasis {
@@ -23,6 +39,9 @@ class HarmonicBasis {
           powers_ = std::max(powers_, harmonic.size());
         }
       }
+    }
+    if (powers_ > kMostPowers) {
+      throw std::invalid_argument("a series of too many powers");
     }
     const std::vector<PlacePolynomial> powers = powers_of_place(part.z, part.half_z, part.z_error, powers_);
     const Ball turn = two * pi();
@@ -63,8 +82,10 @@ class HarmonicBasis {
   }
 
  private:
-  /// The coefficient of y^k in the value at z + y: z^d becomes (d over k) z^(d - k).
+  /// The coefficient of y^k in the value at z + y: z^d becomes (d over k) z^(d - k). Coefficients are exact,
+  /// and so are binomials of few powers: the factor is rounded once.
   [[nodiscard]] BallPolynomial taylor_term(const PhaseSeries& series, std::size_t k) const {
+    static_assert(has_exact_binomials(kMostPowers) && !has_exact_binomials(64) && kRoundingsOfFactor >= 1);
     std::vector<double> factors(functions_.size(), 0.0);
     for (std::size_t h = 0; h < series.size(); ++h) {
       double binomial = 1.0;

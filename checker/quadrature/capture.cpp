@@ -81,6 +81,7 @@ void conclude(const Cover& cover, const Ball& largest, const Setting& set, const
   }
   const Ball samples(*std::max_element(cover.samples.begin(), cover.samples.end()));
   found.verdict = Verdict::proved;
+  found.set_error = frequency_errors(set);
   found.bound = bound;
   found.ultimate = ultimate;
   if (const auto claim = settling_claim(quantities)) {
@@ -154,7 +155,7 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
   const bool captured = certainly_equal(cover.turns, zero);
   // The least frequency error in the shifted set, which is invariant, too: for the frequency error acts
   // through its sine and cosine alone.
-  const Ball reach = set.radius * inverse_rows(set.metric)[2];
+  const Ball reach = frequency_errors(set);
   const Ball off = two * abs(cover.turns) * pi() - reach;
   for (const Ball& level : cover.levels) {
     if (!certainly_not_negative(level) || !certainly_at_most(level, set.radius)) {
@@ -252,8 +253,12 @@ Claim check_capture_claim(const Tree& claimed, const std::map<std::string, Captu
     disturbance = Guarantee::disturbance_of(found.noise, found.slew);
     verdict = found.verdict;
   }
+  if (verdict == Verdict::proved && !guarantee.is_lock(found.set_error)) {
+    verdict = Verdict::undecided;
+  }
   Claim claim{guarantee.hypotheses(disturbance, found.covariance) +
-                  "the tracker enters the certified set, which it never leaves.",
+                  "the tracker enters the certified set, in which the frequency error stays below " +
+                  guarantee.lock_words() + ", and never leaves it.",
               verdict, found.quantities};
   check_claim(claimed, claim, objections);
   return claim;

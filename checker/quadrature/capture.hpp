@@ -19,6 +19,7 @@ struct Captured {
   // As in Promises.
   std::optional<Ball> bound, ultimate, wrong_lock;
   std::optional<Settled> settled;
+  std::optional<Ball> set_error;  ///< |frequency error| in the set, at most, rad/sample
   std::string covariance;
 };
 

@@ -121,6 +121,10 @@ std::array<Ball, 3> inverse_rows(const Metric& t) {
           one / t.frequency};
 }
 
+Ball frequency_errors(const Setting& set) {
+  return set.radius * inverse_rows(set.metric)[2];
+}
+
 Ball largest_level(const Metric& t, const Ball& amplitude, const Ball& phase, const Ball& frequency) {
   return sqrt(square(t.amplitude * amplitude) + square(t.phase * phase + abs(t.coupling) * frequency) +
               square(t.frequency * frequency));

@@ -31,6 +31,8 @@ const Setting* first_of(const std::vector<CertifiedSet>& sets, const std::string
 bool tolerates(const Setting& set, const Design& design);
 /// Lengths of the rows of T^-1: |amplitude|, |phase|, |frequency error| are at most these times |T e|.
 std::array<Ball, 3> inverse_rows(const Metric& metric);
+/// The largest |frequency error| in the set, rad/sample.
+Ball frequency_errors(const Setting& set);
 /// sup |T e| over |e_i| <= bounds_i.
 Ball largest_level(const Metric& metric, const Ball& amplitude, const Ball& phase, const Ball& frequency);
 /// The shifts by whole turns of the frequency error that a verified set may be asked for.

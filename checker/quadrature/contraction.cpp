@@ -130,12 +130,19 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   if (whole != nullptr) {
     found.quantities = size_of(*whole);
     if (tolerates(*whole, design)) {
-      promises.reach = whole->radius * inverse_rows(whole->metric)[2];
+      promises.reach = frequency_errors(*whole);
+      promises.reach_error = promises.reach;
       promises.rate = whole->rate;
     }
   }
-  promises.noise = noisy != nullptr ? std::optional(noisy->noise) : std::nullopt;
-  promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
+  if (noisy != nullptr) {
+    promises.noise = noisy->noise;
+    promises.noise_error = frequency_errors(*noisy);
+  }
+  if (slewing != nullptr) {
+    promises.slew = slewing->slew;
+    promises.slew_error = frequency_errors(*slewing);
+  }
   add_bounds(promises, found);
   if (const auto claim = settling_claim(claimed.at("quantities"))) {
     if (settles(starts, design, *claim)) {

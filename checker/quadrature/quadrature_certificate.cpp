@@ -92,21 +92,26 @@ class QuadratureVerifier {
     add("lock set", objections);
   }
 
+  /// Of every set, or of none: what is said of one alone bounds nothing over the band.
   void check_lock_mean_squares() {
-    std::vector<LockMeanSquare> found;
-    Objections objections;
+    std::vector<const Tree*> forms;
     for (std::size_t k = 0; k < lock_sets_.size(); ++k) {
-      const Tree* form = certificate_.at("lock_sets").at(k).find("mean_square");
-      if (form == nullptr) {
-        return;
-      }
-      if (objections.empty()) {
-        found.push_back(check_lock_mean_square(*form, design_, lock_sets_[k], result_.cells, objections));
+      if (const Tree* form = certificate_.at("lock_sets").at(k).find("mean_square")) {
+        forms.push_back(form);
       }
     }
-    if (!lock_sets_.empty()) {
-      add("mean square in lock", objections);
+    if (forms.empty()) {
+      return;
     }
+    Objections objections;
+    if (forms.size() != lock_sets_.size()) {
+      objections.emplace_back("some of the sets have a mean square and some have none");
+    }
+    std::vector<LockMeanSquare> found;
+    for (std::size_t k = 0; k < forms.size() && objections.empty(); ++k) {
+      found.push_back(check_lock_mean_square(*forms[k], design_, lock_sets_[k], result_.cells, objections));
+    }
+    add("mean square in lock", objections);
     if (objections.empty()) {
       lock_mean_squares_ = std::move(found);
     }

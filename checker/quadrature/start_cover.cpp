@@ -1,8 +1,10 @@
 #include "checker/quadrature/start_cover.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 #include "checker/document/evidence.hpp"
+#include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
 
@@ -27,26 +29,27 @@ bool is_apart(const StartBox& box, const StartBox& region) {
   return any;
 }
 
-}  // namespace
+using BoxList = std::vector<const StartBox*>;
 
-// What no box contains as a whole is cut along a side of a box, the one nearest to its middle, and both parts
-// are covered, or it is not covered.
-bool covers(const StartBox& region, const std::vector<StartBox>& boxes CHECKER_DECLARED_PLACE) {
-  CHECKER_IF_FORCED
-  std::vector<StartBox> near;
+/// What no box contains as a whole is cut along a side of a box, the one nearest to its middle, and both
+/// parts are covered, or it is not covered. `cuts` are left: boxes of an engineer's starts need a few dozen,
+/// and a list made to need thousands would fill the memory.
+bool is_covered(const StartBox& region, const BoxList& boxes, int cuts) {
+  spend(static_cast<std::int64_t>(boxes.size() * sizeof(const StartBox*)));
+  BoxList near;
   double best = HUGE_VAL;
   std::size_t direction = 0;
   Ball cut;
-  for (const StartBox& box : boxes) {
-    if (contains(box, region)) {
+  for (const StartBox* box : boxes) {
+    if (contains(*box, region)) {
       return true;
     }
-    if (is_apart(box, region)) {
+    if (is_apart(*box, region)) {
       continue;
     }
     near.push_back(box);
     for (std::size_t i = 0; i < 3; ++i) {
-      for (const Ball& side : {box.low[i], box.high[i]}) {
+      for (const Ball& side : {box->low[i], box->high[i]}) {
         const Ball off = (side - region.low[i]) / (region.high[i] - region.low[i]);
         if (certainly_less(region.low[i], side) && certainly_less(side, region.high[i]) &&
             std::fabs(off.near() - 0.5) < best) {
@@ -57,14 +60,26 @@ bool covers(const StartBox& region, const std::vector<StartBox>& boxes CHECKER_D
       }
     }
   }
-  if (std::isinf(best)) {
+  if (std::isinf(best) || cuts == 0) {
     return false;
   }
   StartBox lower = region;
   StartBox upper = region;
   lower.high[direction] = cut;
   upper.low[direction] = cut;
-  return covers(lower, near) && covers(upper, near);
+  return is_covered(lower, near, cuts - 1) && is_covered(upper, near, cuts - 1);
+}
+
+}  // namespace
+
+bool covers(const StartBox& region, const std::vector<StartBox>& boxes CHECKER_DECLARED_PLACE) {
+  CHECKER_IF_FORCED
+  constexpr int kMostCuts = 200;
+  BoxList all;
+  for (const StartBox& box : boxes) {
+    all.push_back(&box);
+  }
+  return is_covered(region, all, kMostCuts);
 }
 
 std::pair<StartBox, StartBox> halves(const StartBox& box) {
@@ -107,6 +122,7 @@ Cover read_cover(const Tree& evidence) {
 }
 
 std::size_t mirror_image(const Cover& cover, std::size_t index) {
+  spend(static_cast<std::int64_t>(cover.boxes.size()));
   const StartBox& box = cover.boxes[index];
   for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
     const StartBox& other = cover.boxes[i];

@@ -102,9 +102,11 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
       if (cover.verified) {
         improve(promises.noise, noise_of(cover));
         improve(promises.slew, slew_of(cover));
+        improve(promises.noise_error, largest_error(cover));
       }
     }
   }
+  promises.slew_error = promises.noise_error;  // of every set
   const SteadyPieces* whole = cover_for("start-error", covers, design);
   const SteadyPieces* widest = cover_for("frequency-error-radius", covers, design);
 
@@ -120,6 +122,7 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   }
   if (const SteadyPieces* largest = widest != nullptr ? widest : whole) {
     promises.reach = error_radii(*largest)[2];
+    promises.reach_error = largest_error(*largest);
     add_radii(*largest, found);
   }
   if (whole != nullptr) {

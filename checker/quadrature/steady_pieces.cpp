@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "checker/document/evidence.hpp"
+#include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
 
@@ -41,9 +42,14 @@ bool cover_band(const std::vector<PieceEnds>& ends, const Design& design) {
 SteadyPiece check_piece(const Tree& item, const Design& design, const std::vector<SteadyCell>& wide,
                         const std::vector<SteadyCell>& narrow, std::int64_t& cells, Objections& objections) {
   Objections coarse;
-  SteadyPiece piece{check_steady_set(item, design, wide, cells, coarse), narrow};
+  SteadyPiece piece{check_steady_set(item, design, wide, cells, coarse), {}};
   if (!piece.set.verified) {
     piece.set = check_steady_set(item, design, narrow, cells, objections);
+  }
+  if (piece.set.verified) {
+    // A certificate chooses how many pieces there are.
+    spend(static_cast<std::int64_t>(narrow.size() * sizeof(SteadyCell)));
+    piece.cells = narrow;
   }
   return piece;
 }
@@ -165,15 +171,28 @@ Ball slowest(const SteadyPieces& cover) {
   return rate;
 }
 
-Ball ultimate_error(const SteadyPieces& cover) {
-  Ball ultimate = zero;
+namespace {
+
+/// At least |x3 - omega| at that level of each set.
+Ball error_at(const SteadyPieces& cover, const Ball& (*level)(const std::vector<Ball>& levels)) {
+  Ball most = zero;
   for (const SteadyPiece& piece : cover.pieces) {
-    const Ball about = piece.set.levels.back() * error_radii(piece.set)[2];
+    const Ball about = level(piece.set.levels) * error_radii(piece.set)[2];
     for (const SteadyCell& cell : piece.cells) {
-      ultimate = max(ultimate, abs(cell.at(cell.frequency)[2]) + about);
+      most = max(most, abs(cell.at(cell.frequency)[2]) + about);
     }
   }
-  return ultimate;
+  return most;
+}
+
+}  // namespace
+
+Ball ultimate_error(const SteadyPieces& cover) {
+  return error_at(cover, [](const std::vector<Ball>& levels) -> const Ball& { return levels.back(); });
+}
+
+Ball largest_error(const SteadyPieces& cover) {
+  return error_at(cover, [](const std::vector<Ball>& levels) -> const Ball& { return levels.front(); });
 }
 
 std::optional<SteadyStart> steady_start(const Design& design, const SteadyPieces& cover,

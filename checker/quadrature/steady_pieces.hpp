@@ -48,8 +48,9 @@ Ball slew_of(const SteadyPieces& cover);
 std::array<Ball, 3> error_radii(const SteadyPieces& cover);
 /// At least s_(j+1)/s_j for all j and all pieces; 1 when a set does not shrink.
 Ball slowest(const SteadyPieces& cover);
-/// At least |x3 - omega| in the last levels, rad/sample.
+/// At least |x3 - omega| in the last levels, and in all of the sets, rad/sample.
 Ball ultimate_error(const SteadyPieces& cover);
+Ball largest_error(const SteadyPieces& cover);
 /// As steady_start, over all pieces.
 std::optional<SteadyStart> steady_start(const Design& design, const SteadyPieces& cover,
                                         const StartCovariance& covariance, const SteadyStartClaim& claim);

@@ -113,6 +113,13 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
     settles_within_.reset();
     settled_below_.reset();
   }
+  const Tree& assume = design.at("assume");
+  words_ = FrequencyWords(assume, objections);
+  lock_limit_ = "3.14";
+  if (!wording_.two_channels) {
+    const Band band = read_band(assume, objections);
+    lock_limit_ = lower_decimal(max(min(band.lowest, pi() - band.highest), zero));
+  }
   const auto require = [&](bool asked, const std::string& id) {
     if (asked) {
       required_.push_back({id, short_text(id)});
@@ -132,12 +139,14 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
     objections.emplace_back(
         "[require] asks of Gaussian noise what is for bounded noise, or the other way round");
   }
-  const Tree& assume = design.at("assume");
   amplitude_ = read_number(assume.at("amplitude"), objections);
   assumed_noise_ = wording_.deviation ? Ball::everything() : read_number(assume.at("noise"), objections);
   start_error_ =
       read_frequency(assume.at("initial_frequency_error"), assume, "initial_frequency_error", objections);
-  words_ = FrequencyWords(assume, objections);
+}
+
+bool Guarantee::is_lock(const std::optional<Ball>& frequency_error) const {
+  return frequency_error && certainly_less(*frequency_error, from_decimal(lock_limit_));
 }
 
 bool Guarantee::is_guarantee(const std::string& id) {
@@ -244,21 +253,22 @@ std::string Guarantee::short_text(const std::string& id) const {
   }
   if (id == kNoise) {
     return "at a constant frequency, the tracker tolerates noise up to " + noise_->text +
-           ": a certified invariant set exists";
+           ": a certified invariant set exists, in which the frequency error stays below " + lock_words();
   }
   if (id == kSlew) {
     return "without noise, the tracker tolerates a slew up to " + slew_->text +
-           ": a certified invariant set exists";
+           ": a certified invariant set exists, in which the frequency error stays below " + lock_words();
   }
   if (id == kLosingLock) {
-    return "the probability of losing lock is below " + losing_lock_->text + " " + stretch_of_samples();
+    return "the probability of losing lock, a frequency error of " + lock_words() + " or more, is below " +
+           losing_lock_->text + " " + stretch_of_samples();
   }
   if (id == kMeanSquare) {
-    return "the root mean square of the frequency error in lock is below " + rms_->text + " " +
-           stretch_of_samples();
+    return "the root mean square of the frequency error in lock, in a certified set where it stays below " +
+           lock_words() + ", is below " + rms_->text + " " + stretch_of_samples();
   }
   return "under the assumed noise and slew, a certified invariant set contains frequency errors up to " +
-         reach_->text;
+         reach_->text + " and none of " + lock_words() + " or more";
 }
 
 /// That the error stays below the limit. A start with that much error is allowed, and is not below.
@@ -293,15 +303,18 @@ Claim Guarantee::size(const std::string& id, const Promises& promises) const {
   found.statement = tone(id == kReach) + ", " + short_text(id);
   if (id == kNoise) {
     // Noise is certified relative to the amplitude.
-    found.verdict = proved_if(certainly_at_most(noise_->value, of(promises.noise) * amplitude_));
+    found.verdict = proved_if(is_lock(promises.noise_error) &&
+                              certainly_at_most(noise_->value, of(promises.noise) * amplitude_));
     found.evidence = {{"largest_noise", of(promises.noise), Sense::bounds_below}};
   } else if (id == kSlew) {
-    found.verdict = proved_if(certainly_at_most(slew_->value, of(promises.slew)));
+    found.verdict =
+        proved_if(is_lock(promises.slew_error) && certainly_at_most(slew_->value, of(promises.slew)));
     found.evidence = {{"largest_slew", of(promises.slew), Sense::bounds_below}};
   } else {
     found.statement +=
         promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "";
-    found.verdict = proved_if(certainly_at_most(reach_->value, of(promises.reach)));
+    found.verdict =
+        proved_if(is_lock(promises.reach_error) && certainly_at_most(reach_->value, of(promises.reach)));
     found.evidence = {{"frequency_error_radius", of(promises.reach), Sense::bounds_below}};
   }
   found.statement += ".";
@@ -316,9 +329,10 @@ Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) cons
   found.is_summary = true;
   found.evidence = {{"frequency_error_radius", of(promises.reach), Sense::bounds_below},
                     {"contraction_rate", of(promises.rate), Sense::bounds_above}};
-  found.verdict = proved_if(promises.reach && certainly_positive(reach));
+  found.verdict = proved_if(promises.reach && is_lock(promises.reach_error) && certainly_positive(reach));
   found.statement =
       tone(true) + ", a certified invariant set contains frequency errors up to " + words_.at_least(reach) +
+      " and none of " + lock_words() + " or more" +
       (promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "");
   if (const Tree* rate = evidence.find("contraction_rate")) {
     found.statement +=
@@ -341,12 +355,14 @@ Claim Guarantee::limits(const Tree& claim, const Promises& promises) const {
   found.is_summary = true;
   found.evidence = {{"largest_noise", of(promises.noise), Sense::bounds_below},
                     {"largest_slew", of(promises.slew), Sense::bounds_below}};
-  found.verdict = proved_if(promises.noise && promises.slew);
+  found.verdict = proved_if(promises.noise && promises.slew && is_lock(promises.noise_error) &&
+                            is_lock(promises.slew_error));
   found.statement = tone(false) + ", at a constant frequency the tracker tolerates noise up to " +
                     lower_decimal(low_of(evidence.at("largest_noise"))) +
                     " of the amplitude, and without noise a slew up to " +
                     words_.slew(low_of(evidence.at("largest_slew"))) +
-                    ": a certified invariant set exists for each.";
+                    ": a certified invariant set exists for each, in which the frequency error stays below " +
+                    lock_words() + ".";
   return found;
 }
 
@@ -358,8 +374,10 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
     found.statement.pop_back();
   } else {
     found.statement = hypotheses(promises) + "the tracker keeps its lock for ever";
-    found.verdict = promises.bound        ? Verdict::proved
-                    : promises.wrong_lock ? Verdict::refuted
+    // The sentence names what the error never exceeds.
+    const Tree* named = claim.at("evidence").find("frequency_error_bound");
+    found.verdict = named != nullptr && is_lock(promises.bound) && is_lock(high_of(*named)) ? Verdict::proved
+                    : promises.wrong_lock                                                   ? Verdict::refuted
                                           : Verdict::undecided;
     found.evidence = {{"frequency_error_bound", of(promises.bound), Sense::bounds_above},
                       {"wrong_lock_frequency_error", of(promises.wrong_lock), Sense::bounds_below}};
@@ -397,7 +415,8 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
 Claim Guarantee::losing_lock(const Promises& promises) const {
   Claim found;
   found.statement = hypotheses(promises) + short_text(kLosingLock) + ".";
-  found.verdict = proved_if(certainly_less(of(promises.losing_lock), losing_lock_->value));
+  found.verdict = proved_if(is_lock(promises.lock_reach) &&
+                            certainly_less(of(promises.losing_lock), losing_lock_->value));
   found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above}};
   return found;
 }
@@ -405,7 +424,7 @@ Claim Guarantee::losing_lock(const Promises& promises) const {
 Claim Guarantee::mean_square(const Promises& promises) const {
   Claim found;
   found.statement = hypotheses(promises) + short_text(kMeanSquare) + ".";
-  found.verdict = proved_if(certainly_less(of(promises.rms), rms_->value));
+  found.verdict = proved_if(is_lock(promises.lock_reach) && certainly_less(of(promises.rms), rms_->value));
   found.evidence = {{"rms_frequency_error", of(promises.rms), Sense::bounds_above}};
   return found;
 }
@@ -415,7 +434,9 @@ Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) cons
   const Tree& evidence = claim.at("evidence");
   Claim found;
   found.is_summary = true;
-  found.verdict = proved_if(promises.losing_lock.has_value() && promises.lock_reach.has_value());
+  // What is named in the sentence tells it from other locks, too.
+  found.verdict = proved_if(promises.losing_lock.has_value() && is_lock(promises.lock_reach) &&
+                            is_lock(high_of(evidence.at("lock_frequency_error"))));
   found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above},
                     {"lock_frequency_error", of(promises.lock_reach), Sense::bounds_above}};
   found.statement =

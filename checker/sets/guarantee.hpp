@@ -27,6 +27,8 @@ struct Promises {
   // without noise, and how far the set for the assumed noise and slew reaches in frequency, rad/sample. Lower
   // bounds.
   std::optional<Ball> noise, slew, reach;
+  /// |frequency error| in the set of each of these, rad/sample: upper bounds.
+  std::optional<Ball> noise_error, slew_error, reach_error;
   std::optional<Ball> rate;     ///< by which errors in that set shrink at least, a sample
   std::size_t rate_window = 1;  ///< samples over which that is a mean
   /// With Gaussian noise: of losing lock within the assumed samples, and |frequency error| until then. Upper
@@ -77,6 +79,13 @@ class Guarantee {
   /// Such words: of the assumed ones, and of others, relative to the amplitude and in rad/sample per sample.
   [[nodiscard]] std::string assumed_disturbance() const;
   static std::string disturbance_of(const Ball& noise, const Ball& slew);
+  /// What tells the lock from every other one that the formulas know, "3.14 rad/sample": less than half of
+  /// the distance to the next one. The frequency acts through its sine and cosine, so that there is one 2 pi
+  /// off; of one channel there are also those at the frequencies -w and 2 pi - w, which the channel sees as
+  /// w.
+  [[nodiscard]] std::string lock_words() const { return words_.at_most(lock_limit_); }
+  /// Whether frequency errors up to that bound are certainly below it.
+  [[nodiscard]] bool is_lock(const std::optional<Ball>& frequency_error) const;
   /// What [require] asks.
   [[nodiscard]] const std::vector<Requirement>& required() const { return required_; }
   /// Objects to a claim of these that the promises do not prove. The claim with its sentence.
@@ -113,7 +122,8 @@ class Guarantee {
       losing_lock_, rms_;
   Ball amplitude_, assumed_noise_, start_error_;
   FrequencyWords words_;
-  std::string other_snr_;  ///< dB, that sentences are about in place of the assumed noise; or empty
+  std::string lock_limit_;  ///< rad/sample, a decimal
+  std::string other_snr_;   ///< dB, that sentences are about in place of the assumed noise; or empty
 };
 
 }  // namespace veritrack::checker

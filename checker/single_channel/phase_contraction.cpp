@@ -149,8 +149,15 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
   promises.covariance = start ? start->words : "";
   promises.starts_inside =
       start && sets.bound && tolerates(*sets.bound, design) && holds_starts(*sets.bound, design, *start);
-  promises.noise = sets.noisy ? std::optional(sets.noisy->noise()) : std::nullopt;
-  promises.slew = sets.slewing ? std::optional(sets.slewing->window().slew) : std::nullopt;
+  const auto frequency_errors = [](const ErrorSet& set) { return set.frequency_error(set.window().radius); };
+  if (sets.noisy) {
+    promises.noise = sets.noisy->noise();
+    promises.noise_error = frequency_errors(*sets.noisy);
+  }
+  if (sets.slewing) {
+    promises.slew = sets.slewing->window().slew;
+    promises.slew_error = frequency_errors(*sets.slewing);
+  }
   Derivation found;
   found.title = "Contraction of the errors over all phases and the band of frequencies";
   const bool invariant = sets.whole && tolerates(*sets.whole, design);
@@ -158,6 +165,7 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
     add_size(*sets.whole, found);
     promises.rate = sets.whole->rate();
     promises.rate_window = sets.whole->samples();
+    promises.reach_error = frequency_errors(*sets.whole);
     promises.reach = sets.whole->start() * root_of_non_negative(max(sets.whole->window().least_p33, zero));
   }
   if (const auto starts = starts_of(sets, promises.starts_inside, invariant)) {

@@ -127,6 +127,7 @@ Recursion::Recursion(const Tree& certificate, const SingleChannelDesign& design,
   if (part == nullptr) {
     return;
   }
+  part_ = part;
   Objections objections;
   const Tree& inner = part->at("design");
   if (inner.at("tracker").text() != "model") {
@@ -155,7 +156,7 @@ Recursion::Recursion(const Tree& certificate, const SingleChannelDesign& design,
   }
 }
 
-Claim Recursion::check(const Tree& claim, Objections& objections) const {
+Claim Recursion::check(const Tree& claim, const Guarantee& guarantee, Objections& objections) const {
   static const std::map<std::string, std::string> same{
       {"recursion/guarantee", "model/guarantee"},
       {"recursion/limits", "model/limits"},
@@ -175,6 +176,14 @@ Claim Recursion::check(const Tree& claim, Objections& objections) const {
   if (!is_verified_ || sentence == found_.sentences.end()) {
     objections.emplace_back(kUnverified);
     return {};
+  }
+  // What is required here names the lock by the number of this tracker.
+  const auto& inner = part_->at("claims").elements();
+  const auto there = std::find_if(inner.begin(), inner.end(),
+                                  [&](const Tree& each) { return each.at("id").is(known->second); });
+  const Tree* error = there == inner.end() ? nullptr : there->find("frequency_error");
+  if (decides(claim) && error != nullptr && !guarantee.is_lock(from_decimal(error->text()))) {
+    objections.emplace_back("the frequency errors in its set do not tell the lock from others");
   }
   Claim found;
   found.statement = sentence->text;

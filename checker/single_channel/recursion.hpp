@@ -6,6 +6,7 @@
 #include <string>
 
 #include "checker/document/parts.hpp"
+#include "checker/sets/guarantee.hpp"
 #include "checker/single_channel/single_channel_design.hpp"
 
 namespace veritrack::checker {
@@ -24,9 +25,10 @@ class Recursion {
   static bool decides(const Tree& claim) { return claim.find("by") != nullptr; }
   /// A claim of either kind: the verified sentence of the recursion's certificate. Objects where there is
   /// none that is PROVED.
-  [[nodiscard]] Claim check(const Tree& claim, Objections& objections) const;
+  [[nodiscard]] Claim check(const Tree& claim, const Guarantee& guarantee, Objections& objections) const;
 
  private:
+  const Tree* part_ = nullptr;  ///< its certificate
   Verification found_;
   bool is_verified_ = false;
 };

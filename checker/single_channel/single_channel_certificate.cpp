@@ -49,7 +49,7 @@ void verify(const Tree& certificate, bool all_boxes, Verification& result) {
   const auto check = [&](const Tree& claim, Objections& found) {
     const std::string& id = claim.at("id").text();
     if (Recursion::is_of_recursion(id) || Recursion::decides(claim)) {
-      return recursion.check(claim, found);
+      return recursion.check(claim, guarantee, found);
     }
     if (Guarantee::is_guarantee(id)) {
       return guarantee.check(claim, promises, found);

@@ -64,11 +64,11 @@ std::optional<CheckedDesign> CheckCache::find(const std::string& design_text) co
     return std::nullopt;
   }
   std::optional<CheckedDesign> found = checked_from_text(text->substr(expected.size()));
-  return found && !found->objection ? found : std::nullopt;
+  return found && is_final(*found) ? found : std::nullopt;
 }
 
 void CheckCache::keep(const std::string& design_text, const CheckedDesign& design) const {
-  if (design.objection) {
+  if (!is_final(design)) {
     return;
   }
   const std::filesystem::path file = file_of(design_text);
@@ -95,8 +95,8 @@ std::filesystem::path default_cache_folder() {
   return {};
 }
 
-std::string program_identity() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
+std::string program_identity(const std::filesystem::path& file) {
+  std::ifstream program(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(program), std::istreambuf_iterator<char>()};
   if (!program || bytes.empty()) {
     return {};

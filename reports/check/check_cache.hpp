@@ -19,7 +19,7 @@ class CheckCache {
 
   /// What was kept of a design with this text. What cannot be read, or is no such thing, is nothing.
   [[nodiscard]] std::optional<CheckedDesign> find(const std::string& design_text) const;
-  /// Keeps it, unless it has an objection. What cannot be written is not kept, and nothing is said of it.
+  /// Keeps what `is_final`. What cannot be written is not kept, and nothing is said of it.
   void keep(const std::string& design_text, const CheckedDesign& design) const;
 
  private:
@@ -33,7 +33,8 @@ class CheckCache {
 /// empty when there is none.
 [[nodiscard]] std::filesystem::path default_cache_folder();
 
-/// Which program this is: the SHA-256 of the file that runs, with the version; empty when it cannot be told.
-[[nodiscard]] std::string program_identity();
+/// Which program this is, or the one in the file: its SHA-256, with the version; empty when it cannot be
+/// told.
+[[nodiscard]] std::string program_identity(const std::filesystem::path& file = "/proc/self/exe");
 
 }  // namespace veritrack::reports

@@ -51,11 +51,17 @@ std::string junit_case(const std::string& path, const CheckedRequirement& requir
                                rigor::to_string(requirement.verdict), xml_escaped(requirement.reason));
 }
 
+/// Of the design, and not of the work on it.
+bool is_failure(const CheckObjection& objection) {
+  return objection.kind == CheckObjection::Kind::nothing_required;
+}
+
 std::string junit_error(const std::string& path, const CheckObjection& objection) {
   return fmt::format(
-      "    <testcase classname=\"{}\" name=\"design file\">\n      <error type=\"{}\" "
+      "    <testcase classname=\"{}\" name=\"{}\">\n      <{} type=\"{}\" "
       "message=\"{}\"/>\n    </testcase>\n",
-      xml_escaped(path), to_string(objection.kind), xml_escaped(objection.message));
+      xml_escaped(path), objection.kind == CheckObjection::Kind::cannot_write ? "report" : "design file",
+      is_failure(objection) ? "failure" : "error", to_string(objection.kind), xml_escaped(objection.message));
 }
 
 using Json = nlohmann::ordered_json;
@@ -78,6 +84,12 @@ std::string rule_of(CheckObjection::Kind kind) {
       return "a design file must be one that can be used";
     case CheckObjection::Kind::failure:
       return "a design must be one that can be worked on to the end";
+    case CheckObjection::Kind::not_verified:
+      return "the certificate of a design must be verified";
+    case CheckObjection::Kind::nothing_required:
+      return "a design must require something";
+    case CheckObjection::Kind::cannot_write:
+      return "a report must be one that can be written";
     case CheckObjection::Kind::time_limit:
       break;
   }
@@ -112,10 +124,8 @@ std::string annotation(const std::string& path, certificates::Position position,
 
 Json checked_json(const CheckedDesign& design) {
   Json json{{"path", design.path}};
-  std::vector<Verdict> verdicts;
   Json requirements = Json::array();
   for (const CheckedRequirement& each : design.requirements) {
-    verdicts.push_back(each.verdict);
     requirements.push_back({{"claim", each.claim},
                             {"requirement", each.requirement},
                             {"verdict", rigor::to_string(each.verdict)},
@@ -128,10 +138,14 @@ Json checked_json(const CheckedDesign& design) {
                      {"message", design.objection->message},
                      {"line", design.objection->position.line},
                      {"column", design.objection->position.column}};
-  } else {
-    json["verdict"] = verdicts.empty() ? std::string("nothing-required")
-                                       : std::string(rigor::to_string(rigor::conjunction(verdicts)));
+  }
+  const CheckOutcome outcome = outcome_of(design);
+  if (outcome != CheckOutcome::bad && !(design.objection && outcome == CheckOutcome::undecided)) {
+    json["verdict"] = to_string(outcome);
     json["requirements"] = requirements;
+  }
+  if (design.verified) {
+    json["verified"] = *design.verified;
   }
   return json;
 }
@@ -157,12 +171,19 @@ std::string uri_of(const std::string& path) {
 std::string to_junit(const std::vector<CheckedDesign>& designs) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"veritrack check\">\n";
   for (const CheckedDesign& design : designs) {
-    const auto failures = std::count_if(design.requirements.begin(), design.requirements.end(), is_open);
-    const int errors = design.objection ? 1 : 0;
-    text +=
-        fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",
-                    xml_escaped(design.path), design.requirements.size() + static_cast<std::size_t>(errors),
-                    failures, errors, design.seconds);
+    const std::ptrdiff_t objections = design.objection ? 1 : 0;
+    const std::ptrdiff_t errors = design.objection && !is_failure(*design.objection) ? 1 : 0;
+    const auto failures =
+        std::count_if(design.requirements.begin(), design.requirements.end(), is_open) + objections - errors;
+    text += fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",
+        xml_escaped(design.path), design.requirements.size() + static_cast<std::size_t>(objections), failures,
+        errors, design.seconds);
+    if (design.verified) {
+      text += fmt::format(
+          "    <properties>\n      <property name=\"verified\" value=\"{}\"/>\n    </properties>\n",
+          *design.verified);
+    }
     text += design.objection ? junit_error(design.path, *design.objection) : "";
     for (const CheckedRequirement& requirement : design.requirements) {
       text += junit_case(design.path, requirement);
@@ -206,7 +227,11 @@ std::string to_check_json(const std::vector<CheckedDesign>& designs) {
   for (const CheckedDesign& design : designs) {
     list.push_back(checked_json(design));
   }
-  return text_of({{"schema", "veritrack/check/1"}, {"version", VERITRACK_VERSION}, {"designs", list}});
+  return text_of({{"schema", "veritrack/check/1"},
+                  {"version", VERITRACK_VERSION},
+                  {"exit_status", exit_status_of(designs)},
+                  {"summary", summary_of(designs)},
+                  {"designs", list}});
 }
 
 std::string to_annotations(const CheckedDesign& design) {

@@ -9,14 +9,16 @@
 namespace veritrack::reports {
 
 /// JUnit XML: a test suite for each design with the seconds that it took, a test case for each requirement;
-/// REFUTED and UNDECIDED are failures of that type, a design without verdicts is one test case with an error.
+/// REFUTED and UNDECIDED are failures of that type, a design without verdicts is one test case with an error,
+/// or with a failure where it has to require something. What makes `exit_status_of` 1 or 2 is in every
+/// report.
 [[nodiscard]] std::string to_junit(const std::vector<CheckedDesign>& designs);
 
 /// SARIF 2.1.0: an error for each requirement that is not PROVED, at its line, and for each design without
 /// verdicts. Paths are relative references, percent-encoded.
 [[nodiscard]] std::string to_sarif(const std::vector<CheckedDesign>& designs);
 
-/// JSON, "veritrack/check/1": every design in the given order, with all that was found (docs/ci.md).
+/// JSON, "veritrack/check/1" (check.schema.json): every design in the given order, with all that was found.
 [[nodiscard]] std::string to_check_json(const std::vector<CheckedDesign>& designs);
 
 /// Workflow commands of GitHub, a line for each requirement that is not PROVED and each design without

@@ -21,9 +21,12 @@ struct CheckedRequirement {
 /// Why there are no verdicts.
 struct CheckObjection {
   enum class Kind {
-    bad_input,  ///< the file cannot be used
-    failure,    ///< the program could not go on with it
-    time_limit  ///< it was stopped; everything that is required is UNDECIDED
+    bad_input,         ///< the file cannot be used
+    failure,           ///< the program could not go on with it
+    time_limit,        ///< it was stopped; everything that is required is UNDECIDED
+    not_verified,      ///< the checker refuses its certificate, and nothing is required
+    nothing_required,  ///< and something has to be
+    cannot_write       ///< a report, whose path stands in place of that of a design
   };
   Kind kind = Kind::bad_input;
   std::string message;              ///< one line
@@ -34,15 +37,38 @@ struct CheckObjection {
 struct CheckedDesign {
   std::string path;
   std::vector<CheckedRequirement> requirements;  ///< none: nothing is required
-  std::optional<CheckObjection> objection;       ///< then there are no requirements
-  double seconds = 0.0;  ///< that it took, or took when it was done; not in every report
+  std::optional<CheckObjection> objection = {};  ///< then there are no requirements
+  double seconds = 0.0;               ///< that it took, or took when it was done; not in every report
+  std::optional<bool> verified = {};  ///< by the checker; nothing: it was not asked
+  /// A search ended with the time limit: what is UNDECIDED may be decided without it.
+  bool cut_short = false;
 };
+
+/// What came of all that a design requires.
+enum class CheckOutcome { proved, refuted, undecided, nothing_required, bad };
+[[nodiscard]] CheckOutcome outcome_of(const CheckedDesign& design);
+
+/// Whether a longer limit, or none, would give the same verdicts.
+[[nodiscard]] bool is_final(const CheckedDesign& design);
+
+/// The exit status that all of them make: 0 when everything required is PROVED, 1 when something is not, 2
+/// for a design or a report that is bad.
+[[nodiscard]] int exit_status_of(const std::vector<CheckedDesign>& designs);
+
+/// "12 designs: 9 proved, 1 undecided, 2 bad".
+[[nodiscard]] std::string summary_of(const std::vector<CheckedDesign>& designs);
 
 /// The requirements with their verdicts.
 [[nodiscard]] std::vector<CheckedRequirement> requirements_of(const certificates::Certificate& certificate);
 
-/// "bad-input", "failure" or "time-limit".
+/// Notes what the checker says of the certificate: `refusal` is why it does not verify it, in one line, or
+/// empty. What it refuses is UNDECIDED for this reason, whatever the certificate says.
+void note_verification(CheckedDesign& design, const std::string& refusal);
+
+/// "bad-input", "failure", "time-limit", "not-verified", "nothing-required" or "cannot-write".
 [[nodiscard]] std::string to_string(CheckObjection::Kind kind);
+/// "proved", "refuted", "undecided", "nothing-required" or "bad".
+[[nodiscard]] std::string to_string(CheckOutcome outcome);
 
 /// All but the path as one line of JSON, and back; nothing when the text is not what `to_text` writes.
 [[nodiscard]] std::string to_text(const CheckedDesign& design);

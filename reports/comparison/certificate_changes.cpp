@@ -1,16 +1,18 @@
 #include "reports/comparison/certificate_changes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <stdexcept>
+#include <set>
 #include <string_view>
+
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "reports/comparison/certificate_contents.hpp"
+#include "reports/comparison/contract_changes.hpp"
 
 namespace veritrack::reports {
 
@@ -18,20 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Kind = CertificateChange::Kind;
-
-/// What is proved of a value from one side.
-struct Bound {
-  double value = 0.0;
-  bool is_upper = true;  ///< then less is better
-};
-
-/// What two certificates may differ in.
-struct Contents {
-  std::map<std::string, std::string> design;  ///< what is written, by its path
-  std::map<std::string, std::string> claims;  ///< verdicts, by id
-  std::map<std::string, Bound> bounds;        ///< by name
-  std::string verdict;
-};
 
 struct Words {
   std::string_view name;
@@ -58,189 +46,204 @@ constexpr std::array kWords{
     Words{"lowest_snr", "lowest signal-to-noise ratio", " dB"},
     Words{"snr_db", "lowest signal-to-noise ratio", " dB"},
     Words{"bias", "mean frequency error in the long run, at most", " rad/sample"},
+    Words{"slew", "tolerated slew", " rad/sample per sample"},
+    Words{"samples", "samples until it is captured", ""},
+    Words{"frequency_error_before", "frequency error before it is captured", " rad/sample"},
     Words{"ripple", "variation of the frequency error over the phase", " rad/sample"},
 };
 
-/// The members of a claim that are decimals of which more is better; of the others less is.
-constexpr std::array<std::string_view, 2> kMoreIsBetter{"noise", "reach"};
-constexpr std::array<std::string_view, 6> kLessIsBetter{
-    "frequency_error", "settled_frequency_error", "ripple", "probability", "snr_db", "bias"};
-
-template <typename Names>
-bool is_one_of(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// Rounded to the side that is still true, with as many digits as it takes to tell it from the other one.
+std::string text_of(const Bound& bound, const Bound& other) {
+  if (!bound.decimal.empty()) {
+    return bound.decimal;
+  }
+  constexpr int kDigits = 4;
+  constexpr int kAllDigits = 17;
+  const auto text = [&](double value, int digits) {
+    return rigor::to_decimal(value, digits, bound.is_upper ? rigor::Direction::up : rigor::Direction::down);
+  };
+  return text(bound.value, text(bound.value, kDigits) == text(other.value, kDigits) ? kAllDigits : kDigits);
 }
 
-/// Of a design: a number is what is written of it.
-void flatten(const std::string& path, const Json& json, std::map<std::string, std::string>& texts) {
-  if (json.is_object() && json.contains("text")) {
-    texts[path] = json.at("text").get<std::string>();
-  } else if (json.is_object()) {
-    for (const auto& [name, member] : json.items()) {
-      flatten(path.empty() ? name : fmt::format("{}.{}", path, name), member, texts);
-    }
-  } else if (json.is_array()) {
-    for (std::size_t i = 0; i < json.size(); ++i) {
-      flatten(fmt::format("{}[{}]", path, i), json.at(i), texts);
-    }
-  } else {
-    texts[path] = json.is_string() ? json.get<std::string>() : json.dump();
-  }
-}
-
-double number_of(const Json& json) {
-  return std::strtod(json.get<std::string>().c_str(), nullptr);  // hexadecimal or decimal
-}
-
-void add_bounds(const Json& claim, std::map<std::string, Bound>& bounds) {
-  for (const auto& [name, value] : claim.at("evidence").items()) {
-    const bool has_low = value.contains("lo");
-    const bool has_high = value.contains("hi");
-    if (has_low != has_high) {
-      bounds.emplace(name, Bound{number_of(value.at(has_high ? "hi" : "lo")), has_high});
-    }
-  }
-  for (const auto& [name, value] : claim.items()) {
-    if (is_one_of(kMoreIsBetter, name) || is_one_of(kLessIsBetter, name)) {
-      bounds.emplace(name, Bound{number_of(value), is_one_of(kLessIsBetter, name)});
-    }
-  }
-  if (claim.contains("bias_low") && claim.contains("bias_high")) {
-    const double largest =
-        std::max(std::abs(number_of(claim.at("bias_low"))), std::abs(number_of(claim.at("bias_high"))));
-    bounds.emplace("bias", Bound{largest, true});
-  }
-}
-
-Contents contents_of(const std::string& text) {
-  try {
-    const Json json = Json::parse(text);
-    if (json.at("schema").get<std::string>() != "veritrack/certificate/2") {
-      throw std::invalid_argument("no certificate of the format veritrack/certificate/2");
-    }
-    Contents contents;
-    contents.verdict = json.at("verdict").get<std::string>();
-    flatten("", json.at("design"), contents.design);
-    for (const Json& claim : json.at("claims")) {
-      const auto id = claim.at("id").get<std::string>();
-      const auto verdict = claim.at("verdict").get<std::string>();
-      contents.claims[id] = verdict;
-      if (verdict == "proved") {
-        add_bounds(claim, contents.bounds);
-      }
-    }
-    return contents;
-  } catch (const Json::exception& error) {
-    throw std::invalid_argument(fmt::format("no certificate: {}", error.what()));
-  }
-}
-
-std::string words_of(const std::string& name, const std::string& from, const std::string& to) {
+std::string words_of(const std::string& name, const std::string& change) {
   const auto* const known =
       std::find_if(kWords.begin(), kWords.end(), [&](const Words& words) { return words.name == name; });
-  return known == kWords.end() ? fmt::format("{}: {} -> {}", name, from, to)
-                               : fmt::format("{}: {} -> {}{}", known->words, from, to, known->unit);
-}
-
-/// Claims about the design itself, not about what somebody has published.
-bool is_guarantee(const std::string& id) {
-  return id.starts_with("ekf/") || id.starts_with("model/") || id.starts_with("kkl/");
-}
-
-/// Calls `tell(name, old, new)` for the names of either; what is missing is null.
-template <typename Values, typename Tell>
-void compare(const Values& old_values, const Values& new_values, const Tell& tell) {
-  for (const auto& [name, value] : old_values) {
-    const auto found = new_values.find(name);
-    tell(name, &value, found != new_values.end() ? &found->second : nullptr);
-  }
-  for (const auto& [name, value] : new_values) {
-    if (!old_values.contains(name)) {
-      tell(name, nullptr, &value);
-    }
-  }
-}
-
-/// A verdict that is not in a certificate is none.
-int rank(const std::string& verdict) {
-  return verdict == "proved" ? 2 : verdict == "refuted" ? 0 : 1;
+  return known == kWords.end() ? fmt::format("{}: {}", name, change)
+                               : fmt::format("{}: {}{} ({})", known->words, change, known->unit, name);
 }
 
 class Changes {
  public:
-  explicit Changes(double tolerance) : tolerance_(tolerance) {}
+  Changes(double tolerance, std::span<const std::string> accepted)
+      : tolerance_(tolerance), accepted_(accepted.begin(), accepted.end()) {}
 
-  void of_designs(const Contents& before, const Contents& after) {
-    compare(
-        before.design, after.design, [&](const auto& path, const std::string* from, const std::string* to) {
-          if (from == nullptr || to == nullptr || *from != *to) {
-            add(Kind::other, path, from != nullptr ? *from : "not given", to != nullptr ? *to : "not given");
-          }
-        });
+  void of_contracts(const CertificateContents& before, const CertificateContents& after) {
+    for (const ContractChange& change : contract_changes(before.json, after.json)) {
+      add(change.kind == ContractChange::Kind::weaker     ? Kind::worse
+          : change.kind == ContractChange::Kind::stronger ? Kind::better
+                                                          : Kind::other,
+          change.key, change.text);
+      if (change.kind == ContractChange::Kind::weaker) {
+        loosened_.push_back(fmt::format("{} {}", change.key, change.what));
+      }
+    }
+    // Nobody has to accept on top of it that what is no longer required is no longer said.
+    for (const auto& [id, said] : before.claims) {
+      if (said.is_required && !after.claims.contains(id) && has_accepted_requirement_) {
+        accepted_results_.insert(id);
+        for (const auto& [name, bound] : said.bounds) {
+          accepted_results_.insert(name);
+        }
+      }
+    }
   }
-  void of_verdicts(const Contents& before, const Contents& after) {
+
+  void of_verdicts(const CertificateContents& before, const CertificateContents& after) {
     if (before.verdict != after.verdict) {
       const int from = rank(before.verdict);
       const int to = rank(after.verdict);
-      add(from < to   ? Kind::better
-          : from > to ? Kind::worse
-                      : Kind::other,
-          "what is required", before.verdict, after.verdict);
+      add_result(from < to   ? Kind::better
+                 : from > to ? Kind::worse
+                             : Kind::other,
+                 {}, fmt::format("what is required: {} -> {}", before.verdict, after.verdict));
     }
   }
-  void of_claims(const Contents& before, const Contents& after) {
-    compare(before.claims, after.claims, [&](const auto& id, const std::string* from, const std::string* to) {
-      const std::string old_verdict = from != nullptr ? *from : "not said";
-      const std::string new_verdict = to != nullptr ? *to : "not said";
-      if (old_verdict != new_verdict) {
-        const Kind kind = !is_guarantee(id)                       ? Kind::other
-                          : rank(old_verdict) < rank(new_verdict) ? Kind::better
-                                                                  : Kind::worse;
-        add(kind, id, old_verdict, new_verdict);
+
+  void of_claims(const CertificateContents& before, const CertificateContents& after) {
+    std::set<std::string> ids;
+    for (const CertificateContents* contents : {&before, &after}) {
+      for (const auto& [id, said] : contents->claims) {
+        ids.insert(id);
       }
-    });
-  }
-  void of_bounds(const Contents& before, const Contents& after) {
-    compare(before.bounds, after.bounds, [&](const auto& name, const Bound* from, const Bound* to) {
-      if (from == nullptr || to == nullptr || from->is_upper != to->is_upper) {
-        return;  // a claim is missing, which was told
-      }
-      const double change = to->value - from->value;
-      const double size = std::max(std::abs(from->value), std::abs(to->value));
-      if (!(std::abs(change) <= tolerance_ * size)) {
-        changes.push_back(
-            {(change < 0.0) == from->is_upper ? Kind::better : Kind::worse,
-             words_of(name, fmt::format("{:.4g}", from->value), fmt::format("{:.4g}", to->value))});
-      }
-    });
+    }
+    for (const std::string& id : ids) {
+      const auto from = before.claims.find(id);
+      const auto to = after.claims.find(id);
+      const Said* old_said = from != before.claims.end() ? &from->second : nullptr;
+      const Said* new_said = to != after.claims.end() ? &to->second : nullptr;
+      of_claim(id, old_said, new_said);
+    }
   }
 
-  std::vector<CertificateChange> changes;
+  /// Throws NothingToAccept.
+  CertificateChanges all() && {
+    for (const std::string& key : accepted_) {
+      if (!used_.contains(key)) {
+        throw NothingToAccept(fmt::format("{} is the key of nothing that is worse; allowed: {}", key,
+                                          worse_.empty() ? std::string("no --accept, since nothing is worse")
+                                                         : fmt::format("{}", fmt::join(worse_, ", "))));
+      }
+    }
+    return {std::move(list_), std::move(loosened_)};
+  }
 
  private:
-  void add(Kind kind, const std::string& what, const std::string& from, const std::string& to) {
-    changes.push_back({kind, fmt::format("{}: {} -> {}", what, from, to)});
+  void of_claim(const std::string& id, const Said* from, const Said* to) {
+    const std::string old_verdict = from != nullptr ? from->verdict : "not said";
+    const std::string new_verdict = to != nullptr ? to->verdict : "not said";
+    const bool counts =
+        (from != nullptr ? from : to)->is_guaranteed(id) || (to != nullptr && to->is_required);
+    if (old_verdict != new_verdict) {
+      add_result(!counts                                 ? Kind::other
+                 : rank(old_verdict) < rank(new_verdict) ? Kind::better
+                                                         : Kind::worse,
+                 id, fmt::format("{}: {} -> {}", id, old_verdict, new_verdict));
+    } else if (counts) {
+      of_bounds(*from, *to);
+    }
+  }
+
+  void of_bounds(const Said& before, const Said& after) {
+    for (const auto& [name, from] : before.bounds) {
+      const auto found = after.bounds.find(name);
+      if (found == after.bounds.end() || found->second.is_upper != from.is_upper) {
+        add_bound_change(Kind::worse, name,
+                         fmt::format("{} -> not said", text_of(from, {0.0, from.is_upper})));
+        continue;
+      }
+      const Bound& to = found->second;
+      const double change = to.value - from.value;
+      const double size = std::max(std::abs(from.value), std::abs(to.value));
+      if (std::abs(change) <= tolerance_ * size) {
+        continue;
+      }
+      const bool is_better = from.is_upper ? to.value < from.value : to.value > from.value;
+      add_bound_change(is_better ? Kind::better : Kind::worse, name,
+                       fmt::format("{} -> {}", text_of(from, to), text_of(to, from)));
+    }
+    for (const auto& [name, to] : after.bounds) {
+      if (!before.bounds.contains(name)) {
+        add_bound_change(Kind::better, name, fmt::format("not said -> {}", text_of(to, {0.0, to.is_upper})));
+      }
+    }
+  }
+
+  /// Several claims may have the same bound, which is told once.
+  void add_bound_change(Kind kind, const std::string& name, const std::string& change) {
+    const std::string text = words_of(name, change);
+    if (told_.insert(text).second) {
+      add_result(kind, name, text);
+    }
+  }
+
+  void add_result(Kind kind, const std::string& key, const std::string& text) {
+    if (kind == Kind::better && !loosened_.empty()) {
+      list_.push_back({Kind::easier, text, key});
+    } else if (kind == Kind::worse && accepted_results_.contains(key)) {
+      list_.push_back({Kind::accepted, text, key});
+    } else {
+      add(kind, key, text);
+    }
+  }
+
+  void add(Kind kind, const std::string& key, const std::string& text) {
+    if (kind == Kind::worse && !key.empty()) {
+      worse_.insert(key);
+      if (accepted_.contains(key)) {
+        used_.insert(key);
+        has_accepted_requirement_ = has_accepted_requirement_ || key.starts_with("require.");
+        kind = Kind::accepted;
+      }
+    }
+    list_.push_back({kind, text, key});
   }
 
   double tolerance_;
+  std::set<std::string> accepted_;
+  std::set<std::string> used_;
+  std::set<std::string> worse_;
+  std::set<std::string> told_;
+  std::set<std::string> accepted_results_;
+  bool has_accepted_requirement_ = false;
+  std::vector<std::string> loosened_;
+  std::vector<CertificateChange> list_;
 };
 
 }  // namespace
+
+int CertificateChanges::count(Kind kind) const {
+  return static_cast<int>(std::count_if(list.begin(), list.end(),
+                                        [&](const CertificateChange& each) { return each.kind == kind; }));
+}
 
 void require_certificate(const std::string& text) {
   static_cast<void>(contents_of(text));
 }
 
-std::vector<CertificateChange> certificate_changes(const std::string& old_text, const std::string& new_text,
-                                                   double tolerance) {
-  const Contents before = contents_of(old_text);
-  const Contents after = contents_of(new_text);
-  Changes found(tolerance);
-  found.of_designs(before, after);
-  found.of_verdicts(before, after);
-  found.of_claims(before, after);
-  found.of_bounds(before, after);
-  return found.changes;
+CertificateChanges certificate_changes(const std::string& old_text, const std::string& new_text,
+                                       double tolerance, std::span<const std::string> accepted) {
+  const CertificateContents before = contents_of(old_text);
+  const CertificateContents after = contents_of(new_text);
+  const rigor::UpwardRounding upward;
+  try {
+    Changes found(tolerance, accepted);
+    found.of_contracts(before, after);
+    found.of_verdicts(before, after);
+    found.of_claims(before, after);
+    return std::move(found).all();
+  } catch (const Json::exception& error) {
+    throw std::invalid_argument(fmt::format("no certificate: {}", error.what()));
+  }
 }
 
 }  // namespace veritrack::reports

@@ -1,6 +1,8 @@
 // Two certificates compared: what is better, what is worse, and what of the design is another.
 #pragma once
 
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,21 +13,41 @@ struct CertificateChange {
   enum class Kind {
     better,
     worse,
-    other  ///< of the design, or of a published result
+    accepted,  ///< worse, and meant
+    easier,    ///< a result that is better while the contract asks for less, covers less, or is another one
+    other      ///< of what the engineer chooses, or of a published result
   };
   Kind kind = Kind::other;
   std::string text;  ///< one line: what, and from what to what
+  std::string key;   ///< by which it is accepted: of the design, of a claim, or the name of a bound
+};
+
+struct CertificateChanges {
+  std::vector<CertificateChange> list;
+  /// What makes the contract easier, of which `easier` results count as none: "assume.noise covers less".
+  std::vector<std::string> loosened;
+
+  [[nodiscard]] int count(CertificateChange::Kind kind) const;
+};
+
+/// Thrown for a key that is to be accepted and is the key of nothing that is worse; what() says which are.
+class NothingToAccept : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
 };
 
 /// Throws std::invalid_argument, which says what is wrong, for a text that is no certificate.json.
 void require_certificate(const std::string& text);
 
-/// From certificate.json to certificate.json. A claim that is PROVED no more, a verdict or a bound that is
-/// worse is worse; bounds whose relative change is at most `tolerance` are the same. A value that is known
-/// from one side only says itself which way is better. Verifies nothing. Throws std::invalid_argument for a
-/// text that is no certificate.
-[[nodiscard]] std::vector<CertificateChange> certificate_changes(const std::string& old_text,
-                                                                 const std::string& new_text,
-                                                                 double tolerance);
+/// From certificate.json to certificate.json. Worse is a requirement that is gone or asks for less, an
+/// assumption that covers less, another tracker, unit or recursion (contract_changes.hpp), a claim that is
+/// PROVED no more, a verdict or a bound that is worse, and a bound that is no longer there, unless its key is
+/// in `accepted`. Bounds whose relative change is at most `tolerance` are the same; contracts are compared
+/// exactly. A value that is known from one side only says itself which way is better. Verifies nothing.
+/// Throws std::invalid_argument for a text that is no certificate, and NothingToAccept. Opens its own
+/// rounding scope.
+[[nodiscard]] CertificateChanges certificate_changes(const std::string& old_text, const std::string& new_text,
+                                                     double tolerance,
+                                                     std::span<const std::string> accepted = {});
 
 }  // namespace veritrack::reports

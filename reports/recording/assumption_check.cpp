@@ -15,9 +15,14 @@ constexpr double kSure = 5.0;  // deviations of an estimate
 
 AssumptionCheck::AssumptionCheck(const certificates::SignalAssumptions& assume, std::size_t length,
                                  int channels, bool is_derived)
-    : assume_(assume), length_(length), channels_(channels), fit_(length, channels, is_derived) {
+    : assume_(assume),
+      length_(length),
+      channels_(channels),
+      waveform_(assume.signal, channels),
+      fit_(length, channels, is_derived, waveform_) {
   const auto bridge = static_cast<std::int64_t>(length);
-  findings_.noise_exceeded = findings_.slew_exceeded = findings_.frequency_exceeded = SampleRanges(bridge);
+  findings_.noise_exceeded = findings_.slew_exceeded = findings_.frequency_exceeded =
+      findings_.amplitude_exceeded = SampleRanges(bridge);
   samples_.reserve(length);
 }
 
@@ -42,7 +47,8 @@ void AssumptionCheck::push(std::int64_t index, const RecordedSample& sample, dou
 
 void AssumptionCheck::judge() {
   const auto length = static_cast<std::int64_t>(length_);
-  const Stretch current{fit_.fit(samples_, frequency_sum_ / static_cast<double>(length_)), first_};
+  const double estimate = frequency_sum_ / static_cast<double>(length_);
+  const Stretch current{fit_.fit(samples_, estimate), first_};
   const FittedTone& tone = current.tone;
   if (!std::isfinite(tone.frequency) || !std::isfinite(tone.noise_deviation)) {
     interrupt();
@@ -52,7 +58,14 @@ void AssumptionCheck::judge() {
   findings_.amplitude.add(tone.amplitude);
   findings_.frequency.add(tone.frequency);
   noise_squares_ += tone.noise_deviation * tone.noise_deviation;
+  differences_ += estimate - tone.frequency;
+  difference_squares_ += (estimate - tone.frequency) * (estimate - tone.frequency);
   ++stretches_;
+  const double size_margin = kSure * tone.noise_deviation * std::sqrt(2.0 / static_cast<double>(length_));
+  if (tone.amplitude + size_margin < assume_.amplitude[0] ||
+      tone.amplitude - size_margin > assume_.amplitude[1]) {
+    findings_.amplitude_exceeded.add(first_, first_ + length - 1);
+  }
   const double margin = kSure * tone.frequency_deviation;
   if (tone.frequency + margin < assume_.frequency[0] || tone.frequency - margin > assume_.frequency[1]) {
     findings_.frequency_exceeded.add(first_, first_ + length - 1);
@@ -67,10 +80,10 @@ void AssumptionCheck::judge_noise(std::int64_t first) {
   for (std::size_t k = 0; k < length_; ++k) {
     const RecordedSample& sample = samples_[k];
     const std::complex<double> seen(sample.in_phase, sample.quadrature);
-    const std::complex<double> fitted = fit_.tone(k);
-    const double size = std::abs(fitted);
-    const double amplitude = std::clamp(size, assume_.amplitude[0], assume_.amplitude[1]);
-    const std::complex<double> assumed = size > 0.0 ? amplitude / size * fitted : 0.0;
+    const double size = std::abs(fit_.tone(k));
+    const std::complex<double> shape = waveform_.at(std::arg(fit_.tone(k)));
+    const std::complex<double> fitted = size * shape;
+    const std::complex<double> assumed = std::clamp(size, assume_.amplitude[0], assume_.amplitude[1]) * shape;
     const double residual = channels_ > 1 ? std::abs(seen - fitted) : std::fabs(seen.real() - fitted.real());
     const double distance =
         channels_ > 1 ? std::abs(seen - assumed) : std::fabs(seen.real() - assumed.real());
@@ -118,6 +131,12 @@ AssumptionFindings AssumptionCheck::findings() const {
     findings.noise_deviation = std::sqrt(noise_squares_ / static_cast<double>(stretches_));
     findings.distance_deviation = std::sqrt(
         distance_squares_ / (static_cast<double>(channels_) * static_cast<double>(findings.judged)));
+  }
+  if (stretches_ > 0) {
+    const double count = static_cast<double>(stretches_);
+    findings.bias = differences_ / count;
+    findings.bias_deviation =
+        std::sqrt(std::max(0.0, difference_squares_ / count - findings.bias * findings.bias) / count);
   }
   if (slews_ > 0) {
     findings.slew_root_mean_square = std::sqrt(slew_squares_ / static_cast<double>(slews_));

@@ -38,10 +38,15 @@ struct AssumptionFindings {
   double largest_slew = 0.0;        ///< rad/sample per sample, from one stretch to the next
   double slew_deviation = 0.0;      ///< how uncertain that one is, for white noise
   double slew_root_mean_square = 0.0;
+  /// Of the tracker's estimate less the fitted frequency, from stretch to stretch, rad/sample.
+  double bias = 0.0;
+  double bias_deviation = 0.0;      ///< of that mean
   SampleRanges noise_exceeded;      ///< beyond the bound, or more than the assumed deviation allows
   SampleRanges slew_exceeded;       ///< by more than five deviations of the estimate
   SampleRanges frequency_exceeded;  ///< outside of the band, likewise
+  SampleRanges amplitude_exceeded;  ///< outside of the range, likewise
 
+  /// Whether noise (in which an amplitude counts that is not assumed), slew and frequency are within bounds.
   [[nodiscard]] bool keeps() const {
     return noise_exceeded.count() + slew_exceeded.count() + frequency_exceeded.count() == 0;
   }
@@ -74,6 +79,7 @@ class AssumptionCheck {
   certificates::SignalAssumptions assume_;
   std::size_t length_;
   int channels_;
+  Waveform waveform_;
   ToneFit fit_;
   std::vector<RecordedSample> samples_;
   double frequency_sum_ = 0.0;
@@ -83,6 +89,8 @@ class AssumptionCheck {
   double noise_squares_ = 0.0;
   double distance_squares_ = 0.0;
   double slew_squares_ = 0.0;
+  double differences_ = 0.0;
+  double difference_squares_ = 0.0;
   std::int64_t stretches_ = 0;
   std::int64_t slews_ = 0;
 };

@@ -8,14 +8,20 @@
 
 namespace veritrack::reports {
 
-LockIndicator::LockIndicator(std::size_t window, int channels)
-    : channels_(channels), turned_(window), power_(window) {}
+LockIndicator::LockIndicator(std::size_t window, int channels, const Waveform& waveform)
+    : channels_(channels),
+      waveform_(waveform),
+      turned_(waveform.harmonics().size(), std::vector<std::complex<double>>(window)),
+      power_(window),
+      turned_sums_(waveform.harmonics().size()) {}
 
 void LockIndicator::clear() {
-  std::fill(turned_.begin(), turned_.end(), 0.0);
+  for (std::vector<std::complex<double>>& turned : turned_) {
+    std::fill(turned.begin(), turned.end(), 0.0);
+  }
   std::fill(power_.begin(), power_.end(), 0.0);
+  std::fill(turned_sums_.begin(), turned_sums_.end(), 0.0);
   next_ = count_ = 0;
-  turned_sum_ = 0.0;
   power_sum_ = 0.0;
 }
 
@@ -24,21 +30,22 @@ void LockIndicator::pass(double frequency) {
 }
 
 void LockIndicator::push(const RecordedSample& sample, double frequency) {
-  const double cosine = std::cos(phase_);
-  const double sine = std::sin(phase_);
-  const std::complex<double> turned(sample.in_phase * cosine + sample.quadrature * sine,
-                                    sample.quadrature * cosine - sample.in_phase * sine);
-  const double power = sample.in_phase * sample.in_phase + sample.quadrature * sample.quadrature;
+  const std::complex<double> seen(sample.in_phase, channels_ > 1 ? sample.quadrature : 0.0);
+  for (std::size_t i = 0; i < turned_.size(); ++i) {
+    const std::complex<double> turned = seen * std::polar(1.0, -waveform_.harmonics()[i].order * phase_);
+    turned_sums_[i] += turned - turned_[i][next_];
+    turned_[i][next_] = turned;
+  }
   pass(frequency);
-  turned_sum_ += turned - turned_[next_];
-  power_sum_ += power - power_[next_];
-  turned_[next_] = turned;
-  power_[next_] = power;
+  power_sum_ += std::norm(seen) - power_[next_];
+  power_[next_] = std::norm(seen);
   count_ = std::min(count_ + 1, power_.size());
   if (++next_ == power_.size()) {
     next_ = 0;
     // What rounding has left in the running sums goes with every round.
-    turned_sum_ = std::accumulate(turned_.begin(), turned_.end(), std::complex<double>(0.0));
+    for (std::size_t i = 0; i < turned_.size(); ++i) {
+      turned_sums_[i] = std::accumulate(turned_[i].begin(), turned_[i].end(), std::complex<double>(0.0));
+    }
     power_sum_ = std::accumulate(power_.begin(), power_.end(), 0.0);
   }
 }
@@ -50,8 +57,7 @@ double LockIndicator::share() const {
   if (!(power_sum_ > 0.0)) {
     return 0.0;
   }
-  const double whole = static_cast<double>(count_) * power_sum_;
-  return std::clamp((channels_ > 1 ? 1.0 : 2.0) * std::norm(turned_sum_) / whole, 0.0, 1.0);
+  return std::clamp(waveform_.power(turned_sums_) / (static_cast<double>(count_) * power_sum_), 0.0, 1.0);
 }
 
 }  // namespace veritrack::reports

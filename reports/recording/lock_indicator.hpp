@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/recording/samples/sample_source.hpp"
+#include "reports/recording/waveform.hpp"
 
 namespace veritrack::reports {
 
@@ -14,10 +15,11 @@ namespace veritrack::reports {
 ///     |sum y(k) e^{-i psi(k)}|^2 / (n sum |y(k)|^2)
 /// for two channels and n samples, and twice that for one (a tone has half of its power in e^{i psi}). It is
 /// 1 for a tone without noise whose frequency is estimated well, SNR/(1 + SNR) in white noise, and close to
-/// 1/n where the estimates have nothing to do with the recording.
+/// 1/n where the estimates have nothing to do with the recording. For the waveform of a design whose signal
+/// has harmonics it is the share of the power in them, in their proportions (Waveform::power).
 class LockIndicator {
  public:
-  LockIndicator(std::size_t window, int channels);
+  LockIndicator(std::size_t window, int channels, const Waveform& waveform);
 
   /// Forgets everything: the tracker starts anew.
   void clear();
@@ -30,12 +32,13 @@ class LockIndicator {
 
  private:
   int channels_;
-  double phase_ = 0.0;  ///< psi, rad
-  std::vector<std::complex<double>> turned_;
+  Waveform waveform_;
+  double phase_ = 0.0;                                     ///< psi, rad
+  std::vector<std::vector<std::complex<double>>> turned_;  ///< for each harmonic
   std::vector<double> power_;
   std::size_t next_ = 0;
   std::size_t count_ = 0;
-  std::complex<double> turned_sum_ = 0.0;
+  std::vector<std::complex<double>> turned_sums_;
   double power_sum_ = 0.0;
 };
 

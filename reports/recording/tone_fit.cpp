@@ -5,9 +5,10 @@
 
 namespace veritrack::reports {
 
-ToneFit::ToneFit(std::size_t length, int channels, bool is_derived)
+ToneFit::ToneFit(std::size_t length, int channels, bool is_derived, const Waveform& waveform)
     : channels_(channels),
       is_derived_(is_derived),
+      waveform_(waveform),
       basis_(static_cast<Eigen::Index>(length), 3),
       turns_(length),
       values_(length) {
@@ -47,14 +48,19 @@ ToneFit::Coefficients ToneFit::closest(std::span<const RecordedSample> samples) 
 }
 
 const FittedTone& ToneFit::fit(std::span<const RecordedSample> samples, double frequency) {
-  const std::size_t length = samples.size();
-  const double middle = 0.5 * static_cast<double>(length - 1);
+  const double middle = 0.5 * static_cast<double>(samples.size() - 1);
   std::complex<double> turn = std::polar(1.0, -frequency * middle);
   const std::complex<double> step = std::polar(1.0, frequency);
   for (std::complex<double>& each : turns_) {
     each = turn;
     turn *= step;
   }
+  waveform_.is_tone() ? fit_tone(samples, frequency) : fit_waveform(samples, frequency);
+  return fitted_;
+}
+
+void ToneFit::fit_tone(std::span<const RecordedSample> samples, double frequency) {
+  const std::size_t length = samples.size();
   const Coefficients found = closest(samples);
   double residual = 0.0;
   for (std::size_t k = 0; k < length; ++k) {
@@ -75,7 +81,58 @@ const FittedTone& ToneFit::fit(std::span<const RecordedSample> samples, double f
   // Half of a real sample's information is in each of its two turning parts.
   fitted_.frequency_deviation = (channels_ > 1 && !is_derived_ ? 1.0 : std::sqrt(2.0)) *
                                 fitted_.noise_deviation * slope_ / fitted_.amplitude;
-  return fitted_;
+}
+
+void ToneFit::fit_waveform(std::span<const RecordedSample> samples, double frequency) {
+  constexpr int kSteps = 8;
+  const std::size_t length = samples.size();
+  std::vector<std::complex<double>> means(waveform_.harmonics().size());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    for (std::size_t k = 0; k < length; ++k) {
+      const std::complex<double> seen(samples[k].in_phase, channels_ > 1 ? samples[k].quadrature : 0.0);
+      means[i] +=
+          seen * std::pow(std::conj(turns_[k]), waveform_.harmonics()[i].order) / static_cast<double>(length);
+    }
+  }
+  const MatchedTone matched = waveform_.match(means);
+  const double p0 = basis_(0, 0);
+  // Coefficients of the amplitude, and then of the phase.
+  Coefficients found = Coefficients::Zero();
+  found(0) = matched.amplitude / p0;
+  found(3) = matched.phase / p0;
+  Eigen::Matrix<double, 6, 6> normal;
+  double residual = 0.0;
+  for (int step = 0; step <= kSteps; ++step) {
+    normal.setZero();
+    Coefficients right = Coefficients::Zero();
+    residual = 0.0;
+    for (std::size_t k = 0; k < length; ++k) {
+      const auto row = basis_.row(static_cast<Eigen::Index>(k));
+      const double amplitude = row.dot(found.head<3>());
+      const double phase = std::arg(turns_[k]) + row.dot(found.tail<3>());
+      values_[k] = amplitude * std::polar(1.0, phase);
+      const std::complex<double> shape = waveform_.at(phase);
+      const std::complex<double> turned = amplitude * waveform_.derivative(phase);
+      const std::complex<double> seen(samples[k].in_phase, channels_ > 1 ? samples[k].quadrature : 0.0);
+      const std::complex<double> rest = seen - amplitude * shape;
+      residual += std::norm(rest);
+      Coefficients in_phase;
+      in_phase << shape.real() * row.transpose(), turned.real() * row.transpose();
+      Coefficients quadrature;
+      quadrature << shape.imag() * row.transpose(), turned.imag() * row.transpose();
+      normal += in_phase * in_phase.transpose() + quadrature * quadrature.transpose();
+      right += rest.real() * in_phase + rest.imag() * quadrature;
+    }
+    if (step < kSteps) {
+      found += normal.ldlt().solve(right);
+    }
+  }
+  fitted_.noise_deviation =
+      std::sqrt(residual / (static_cast<double>(channels_) * static_cast<double>(length) - 6.0));
+  fitted_.amplitude = p0 * found(0) + bend_ * found(2);
+  fitted_.frequency = frequency + slope_ * found(4);
+  const Coefficients unit = Coefficients::Unit(4);
+  fitted_.frequency_deviation = fitted_.noise_deviation * slope_ * std::sqrt(normal.ldlt().solve(unit)(4));
 }
 
 }  // namespace veritrack::reports

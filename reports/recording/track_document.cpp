@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "certificates/document/markdown_text.hpp"
+#include "reports/recording/assumption_list.hpp"
 #include "reports/recording/chi_square.hpp"
 #include "reports/recording/track_blocks.hpp"
 #include "reports/recording/track_sentences.hpp"
@@ -25,66 +24,22 @@ std::string bullets(const std::vector<std::string>& sentences) {
   return text;
 }
 
-std::vector<std::string> frequency_row(const TrackReport& report, const RecordingUnits& units) {
-  const AssumptionFindings& found = report.result.assumptions;
-  return {"frequency",
-          fmt::format("from {} to {}", units.frequency(report.assume.frequency[0]),
-                      units.frequency(report.assume.frequency[1])),
-          fmt::format("from {} to {}", units.frequency(found.frequency.least),
-                      units.frequency(found.frequency.largest)),
-          listed(found.frequency_exceeded, kRanges)};
-}
-
-std::vector<std::string> slew_row(const TrackReport& report, const RecordingUnits& units) {
-  const AssumptionFindings& found = report.result.assumptions;
-  return {"slew",
-          report.assume.slew ? "at most " + units.slew(*report.assume.slew) : "a random walk: not compared",
-          fmt::format("largest {} ± {:.1g}; root mean square {:.2g}", units.slew(found.largest_slew),
-                      found.slew_deviation, found.slew_root_mean_square),
-          listed(found.slew_exceeded, kRanges)};
-}
-
-std::vector<std::string> noise_row(const TrackReport& report) {
-  const AssumptionFindings& found = report.result.assumptions;
-  const std::string assumed =
-      report.assume.noise_deviation
-          ? fmt::format("deviation of each channel {:.4g}", *report.assume.noise_deviation)
-          : fmt::format("at most {:.4g}{}", report.assume.noise.value_or(NAN),
-                        report.result.channels > 1 ? ", both channels together" : "");
-  return {"noise: distance from a tone of amplitude " + amplitude_words(report.assume), assumed,
-          fmt::format("largest {:.4g}; root mean square of each channel {:.4g}", found.largest_distance,
-                      found.distance_deviation),
-          listed(found.noise_exceeded, kRanges)};
-}
-
-std::string assumptions_section(const TrackReport& report, const RecordingUnits& units) {
-  const AssumptionFindings& found = report.result.assumptions;
-  std::string text = "## What the certificate assumes, and the recording\n\n";
-  if (found.judged == 0) {
+std::string recording_section(const TrackResult& result) {
+  std::string text = "## What the recording shows\n\n";
+  if (result.recording.empty()) {
     return text +
-           "No stretch of the recording could be judged: none was in lock and without gaps for long "
-           "enough.\n\n";
+           "No DC offset, harmonics, hum, clipping, silence, dropouts, gaps, coarse steps, drift of the "
+           "amplitude or "
+           "sweep beyond the slew was found. docs/recordings.md says from what size on each is seen.\n\n";
   }
-  text += markdown::table(
-      {"", "assumed", "estimated in the recording", "exceeded in"},
-      {frequency_row(report, units),
-       slew_row(report, units),
-       noise_row(report),
-       {"amplitude",
-        amplitude_words(report.assume) + (report.assume.amplitude_varies ? ", of each sample" : ", constant"),
-        fmt::format("from {:.4g} to {:.4g}", found.amplitude.least, found.amplitude.largest),
-        "counts as noise"},
-       {"noise around the fitted tone", "",
-        fmt::format("largest {:.4g}; root mean square of each channel {:.4g}", found.largest_residual,
-                    found.noise_deviation),
-        ""}});
-  text += fmt::format(
-      "\nAll of these are estimates. A tone is fitted to each stretch of {} samples in lock, with an "
-      "amplitude and a frequency that may drift in it; {} of {} samples lie in such stretches. Slew and "
-      "frequency count as exceeded when they are by more than five deviations of the estimate in white "
-      "noise.\n\n",
-      report.result.window, found.judged, report.result.samples);
-  return text;
+  std::vector<std::vector<std::string>> rows;
+  for (const Finding& each : result.recording) {
+    rows.push_back({each.name, listed(each.where, kRanges), each.sees, each.remedy});
+  }
+  return text + markdown::table({"", "samples", "what is seen", "remedy"}, rows) +
+         "\nAmplitudes are in the units of the recording, numbers for the design file in those of the "
+         "design. In white "
+         "noise, each test errs in fewer than one of a million blocks.\n\n";
 }
 
 std::string nis_section(const TrackReport& report) {
@@ -147,10 +102,21 @@ std::string lock_section(const TrackReport& report) {
 std::string headline(const TrackReport& report) {
   const RecordingUnits units(report.sample_rate);
   if (!report.result.blocks.empty()) {
-    return block_lock_sentence(report.result, units);
+    std::string text = block_lock_sentence(report.result, units) + " " + assumptions_sentence(report) + " " +
+                       findings_sentence(report.result);
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
   }
-  return lock_sentence(report.result, units) + " " + short_nis_sentence(report.result) +
-         assumptions_sentence(report.result);
+  const std::string hilbert = hilbert_excludes_certificate(report)
+                                  ? "The Gaussian certificate does not apply: after the Hilbert filter, "
+                                    "noise is neither independent from sample "
+                                    "to sample nor from channel to channel. "
+                                  : "";
+  std::string text = hilbert + lock_sentence(report.result, units) + " " + assumptions_sentence(report) +
+                     " " + bias_sentence(report.result, units) + findings_sentence(report.result) +
+                     short_nis_sentence(report.result);
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
 }
 
 std::string to_markdown(const TrackReport& report, const std::string& figure,
@@ -168,9 +134,9 @@ std::string to_markdown(const TrackReport& report, const std::string& figure,
     text += fmt::format("![Estimated frequency{}lock over the recording]({})\n\n",
                         result.has_innovation ? ", normalised innovations and " : " and ", figure);
   }
+  text += recording_section(result) + assumptions_section(report);
   text += in_blocks ? blocks_section(report, blocks_figure) + run_section(report, units)
-                    : run_section(report, units) + lock_section(report) + nis_section(report) +
-                          assumptions_section(report, units);
+                    : lock_section(report) + nis_section(report) + run_section(report, units);
   text += fmt::format(
       "## Files\n\n`track.csv` has {} rows, each for {}. `veritrack track --each FILE` writes a row for "
       "every "

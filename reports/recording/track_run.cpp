@@ -27,12 +27,14 @@ class Run {
       : tracker_(tracker.tracker.get()),
         assume_(tracker.assume),
         settings_(settings),
-        window_(lock_window(assume_.frequency[0], tracker_->channels())),
-        lock_(window_, tracker_->channels()),
+        waveform_(assume_.signal, tracker_->channels()),
+        window_(lock_window(assume_.frequency[0], tracker_->channels() == 1 || !waveform_.is_tone())),
+        lock_(window_, tracker_->channels(), waveform_),
         check_(assume_, window_, tracker_->channels(), is_derived) {
     const auto bridge = static_cast<std::int64_t>(window_);
     result_.channels = tracker_->channels();
     result_.has_innovation = tracker_->has_innovation();
+    result_.quadrature_is_derived = is_derived;
     result_.window = window_;
     result_.scale = settings.scale.value_or(1.0);
     result_.no_lock = result_.nis.too_large = SampleRanges(bridge);
@@ -74,7 +76,7 @@ class Run {
       return;
     }
     certificates::ToneAtSample tone =
-        find_tone(ahead, result_.channels, assume_.frequency, settings_.start_frequency);
+        find_tone(ahead, waveform_, result_.channels, assume_.frequency, settings_.start_frequency);
     if (result_.start_count == 0 && !settings_.scale && tone.amplitude > 0.0) {
       result_.scale = 0.5 * (assume_.amplitude[0] + assume_.amplitude[1]) / tone.amplitude;
     }
@@ -180,6 +182,7 @@ class Run {
   certificates::TrackerRun* tracker_;
   certificates::SignalAssumptions assume_;
   TrackSettings settings_;
+  Waveform waveform_;
   std::size_t window_;
   LockIndicator lock_;
   AssumptionCheck check_;
@@ -193,11 +196,12 @@ class Run {
 
 }  // namespace
 
-std::size_t lock_window(double lowest, int channels) {
+std::size_t lock_window(double lowest, bool by_periods) {
   constexpr double kLeast = 64.0;
-  constexpr double kMost = 4096.0;
-  const double periods = lowest > 0.0 ? std::ceil(4.0 * std::numbers::pi / lowest) : kMost;
-  return static_cast<std::size_t>(channels > 1 ? kLeast : std::clamp(periods, kLeast, kMost));
+  constexpr double kMost = 65536.0;
+  constexpr double kUnknown = 4096.0;
+  const double periods = lowest > 0.0 ? std::ceil(4.0 * std::numbers::pi / lowest) : kUnknown;
+  return static_cast<std::size_t>(by_periods ? std::clamp(periods, kLeast, kMost) : kLeast);
 }
 
 NisFindings::Verdict verdict_on(const NisFindings& nis, int channels) {

@@ -9,6 +9,7 @@
 
 #include "certificates/document/tracker_run.hpp"
 #include "reports/recording/assumption_check.hpp"
+#include "reports/recording/findings/finding.hpp"
 #include "reports/recording/sample_ranges.hpp"
 #include "reports/recording/samples/sample_source.hpp"
 #include "reports/recording/track_series.hpp"
@@ -42,7 +43,8 @@ struct NisFindings {
 struct TrackResult {
   int channels = 1;
   bool has_innovation = false;
-  std::size_t window = 0;  ///< of the lock indicator, and the length of a stretch
+  bool quadrature_is_derived = false;  ///< by a Hilbert filter
+  std::size_t window = 0;              ///< of the lock indicator, and the length of a stretch
   double scale = 1.0;
   std::int64_t first = 0;        ///< the first sample that was used
   std::int64_t samples = 0;      ///< from then on, missing ones included
@@ -60,6 +62,8 @@ struct TrackResult {
   NisFindings nis;
   Spread frequency;  ///< estimates in lock, rad/sample
   AssumptionFindings assumptions;
+  std::vector<Finding> recording;  ///< what the recording shows by itself
+  Spread recorded_frequency;       ///< of its tone, from stretch to stretch, rad/sample
   TrackSeries series;
   std::vector<certificates::TrackedBlock> blocks;  ///< of a tracker in blocks
 
@@ -74,9 +78,9 @@ inline constexpr double kLockShare = 0.5;
 /// Stretches without gaps that are shorter than this are not tracked.
 inline constexpr std::size_t kShortestStretch = 32;
 
-/// How many samples the lock indicator looks at: 64, and with one channel at least two periods of the lowest
-/// frequency (rad/sample) that is assumed, but 4096.
-[[nodiscard]] std::size_t lock_window(double lowest, int channels);
+/// How many samples the lock indicator looks at: 64, and with one channel or a signal with harmonics at least
+/// two periods of the lowest frequency (rad/sample) that is assumed, but 65536.
+[[nodiscard]] std::size_t lock_window(double lowest, bool by_periods);
 
 using EachSample = std::function<void(const TrackedSample&)>;
 

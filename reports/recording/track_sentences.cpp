@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
+#include "reports/recording/assumption_list.hpp"
 #include "reports/recording/chi_square.hpp"
 
 namespace veritrack::reports {
@@ -16,18 +19,32 @@ double innovation_ratio(const TrackResult& result) {
   return result.nis.sum / static_cast<double>(result.nis.count) / result.channels;
 }
 
-/// What of the assumptions is exceeded: "noise, slew".
-std::vector<std::string> exceeded(const AssumptionFindings& found) {
+/// The estimate less the frequency of the recording's tone, rad/sample: of one that is steady, by the long
+/// stretches in which the recording was examined, which tell it from its harmonics; of another, by the fits
+/// in lock.
+double bias_of(const TrackResult& result) {
+  constexpr double kSteady = 5e-3;
+  const Spread& tone = result.recorded_frequency;
+  const bool is_steady = tone.count > 0 && tone.largest - tone.least < kSteady * std::fabs(tone.mean());
+  return is_steady ? result.frequency.mean() - tone.mean() : result.assumptions.bias;
+}
+
+/// A difference between estimate and fit that is no chance, and that counts.
+bool is_biased(const TrackResult& result) {
+  constexpr double kDeviations = 5.0;
+  constexpr double kCounts = 1e-3;
+  const double bias = std::fabs(bias_of(result));
+  return result.assumptions.judged > 0 && bias > kDeviations * result.assumptions.bias_deviation &&
+         bias > kCounts * std::fabs(result.frequency.mean());
+}
+
+/// "DC offset, harmonics": what is wrong with the signal.
+std::string names_of(const std::vector<Finding>& findings) {
   std::vector<std::string> names;
-  const auto add = [&](const SampleRanges& ranges, const char* name) {
-    if (ranges.count() > 0) {
-      names.emplace_back(name);
-    }
-  };
-  add(found.noise_exceeded, "noise");
-  add(found.slew_exceeded, "slew");
-  add(found.frequency_exceeded, "frequency");
-  return names;
+  for (const Finding& each : findings) {
+    names.push_back(each.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -44,11 +61,31 @@ std::string lock_sentence(const TrackResult& result, const RecordingUnits& units
   if (!result.first_lock) {
     return result.start_count == 0 ? "The tracker was never started." : "The tracker was never in lock.";
   }
+  const std::string frequency =
+      "; the estimate is " + units.frequency(result.frequency.mean()) + " on average";
   if (!result.lost_lock) {
-    return result.has_gap_between ? "Kept lock, apart from gaps." : "Kept lock.";
+    return fmt::format("Kept lock{}{}.", result.has_gap_between ? ", apart from gaps" : "", frequency);
   }
-  return fmt::format("Lost lock at {}{}.", units.sample(*result.lost_lock),
-                     result.ends_in_lock ? ", and found it again" : "");
+  return fmt::format("Lost lock at {}{}{}.", units.sample(*result.lost_lock),
+                     result.ends_in_lock ? ", and found it again" : "", frequency);
+}
+
+std::string bias_sentence(const TrackResult& result, const RecordingUnits& units) {
+  if (!is_biased(result)) {
+    return {};
+  }
+  const double bias = bias_of(result);
+  return fmt::format(
+      "The estimate is {} {} the frequency of the tone fitted to the recording, {}: a bias of the "
+      "tracker{}. ",
+      units.frequency(std::fabs(bias)), bias > 0.0 ? "above" : "below",
+      units.frequency(result.frequency.mean() - bias),
+      result.recording.empty() ? std::string() : " on this recording (" + names_of(result.recording) + ")");
+}
+
+std::string findings_sentence(const TrackResult& result) {
+  return result.recording.empty() ? std::string()
+                                  : "Seen in the recording: " + names_of(result.recording) + ". ";
 }
 
 std::string nis_sentence(const TrackResult& result) {
@@ -69,6 +106,13 @@ std::string nis_sentence(const TrackResult& result) {
     return "Consistent: " + numbers + ".";
   }
   const double ratio = innovation_ratio(result);
+  if (verdict == NisVerdict::over_confident && !result.recording.empty()) {
+    return fmt::format(
+        "Over-confident: {}. Squared innovations are {:.3g} times as large as the filter believes. The "
+        "recording has {}: "
+        "mend that first, and then judge R and Q.",
+        numbers, ratio, names_of(result.recording));
+  }
   if (verdict == NisVerdict::over_confident) {
     return fmt::format(
         "Over-confident: {}. Squared innovations are {:.3g} times as large as the filter believes; its R or "
@@ -95,20 +139,9 @@ std::string short_nis_sentence(const TrackResult& result) {
   }
 }
 
-std::string assumptions_sentence(const TrackResult& result) {
-  const AssumptionFindings& found = result.assumptions;
-  if (found.judged == 0) {
-    return "Whether the recording keeps to what the certificate assumes could not be judged.";
-  }
-  if (found.keeps()) {
-    return "As far as estimates can tell, the recording keeps to what the certificate assumes.";
-  }
-  return fmt::format("The recording exceeds what the certificate assumes: {}.",
-                     fmt::join(exceeded(found), ", "));
-}
-
 std::vector<std::string> report_sentences(const TrackReport& report, const RecordingUnits& units) {
   const TrackResult& result = report.result;
+  const AssumptionFindings& found = result.assumptions;
   std::vector<std::string> sentences;
   if (result.first_lock) {
     sentences.push_back(fmt::format(
@@ -118,6 +151,14 @@ std::vector<std::string> report_sentences(const TrackReport& report, const Recor
         units.frequency(result.frequency.mean()), units.frequency(result.frequency.least),
         units.frequency(result.frequency.largest)));
   }
+  if (result.assumptions.judged > 0 && result.first_lock) {
+    sentences.push_back(fmt::format(
+        "The tone fitted to the recording has a frequency of {} on average: the estimate is {} by {} ± "
+        "{:.1g} rad/sample.",
+        units.frequency(result.frequency.mean() - bias_of(result)),
+        bias_of(result) >= 0.0 ? "above it" : "below it", units.frequency(std::fabs(bias_of(result))),
+        found.bias_deviation));
+  }
   if (result.no_number) {
     sentences.push_back(
         fmt::format("At {} the estimate was no finite number; the tracker was not run until the next gap.",
@@ -126,11 +167,11 @@ std::vector<std::string> report_sentences(const TrackReport& report, const Recor
   if (result.has_innovation) {
     sentences.push_back(nis_sentence(result));
   }
-  const AssumptionFindings& found = result.assumptions;
-  if (!found.keeps()) {
+  if (!keeps_to_tested(report) && found.judged > 0) {
     sentences.emplace_back(
-        "A certificate of this design says nothing of the samples in which the recording exceeds what it "
-        "assumes, and of those after them. The table below has them.");
+        "A certificate of this design says nothing of the samples in which an assumption is not kept, and of "
+        "those after "
+        "them. The table of the assumptions has them.");
   }
   constexpr double kFar = 1.2;
   Extent amplitude = found.amplitude;

@@ -9,14 +9,17 @@
 
 namespace veritrack::reports {
 
-/// "Lost lock at sample 12." and the like.
+/// "Lost lock at sample 12; ..." and the like, with the frequency.
 [[nodiscard]] std::string lock_sentence(const TrackResult& result, const RecordingUnits& units);
 /// Whether the mean NIS is within its band, with all numbers.
 [[nodiscard]] std::string nis_sentence(const TrackResult& result);
 /// The same in a few words with a blank behind it; empty when there is nothing to say.
 [[nodiscard]] std::string short_nis_sentence(const TrackResult& result);
-/// Whether the recording keeps to what the certificate assumes.
-[[nodiscard]] std::string assumptions_sentence(const TrackResult& result);
+/// How far the estimate is from the frequency of the fitted tone, with a blank behind it; empty where that is
+/// chance or less than a thousandth.
+[[nodiscard]] std::string bias_sentence(const TrackResult& result, const RecordingUnits& units);
+/// The names of what the recording shows, with a blank behind it; empty when that is nothing.
+[[nodiscard]] std::string findings_sentence(const TrackResult& result);
 /// "1", or "0.5 to 2".
 [[nodiscard]] std::string amplitude_words(const certificates::SignalAssumptions& assume);
 /// What else has to be said at once.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,9 @@
 namespace veritrack::reports {
 
 namespace {
+
+/// For the first sentence: what makes the entries agree.
+constexpr std::string_view kFittedToCaptions = "a window and a phase fitted to the twelve numbers";
 
 using kkl_observer::CaptionStatistics;
 using kkl_observer::CaptionWindow;
@@ -192,7 +196,7 @@ std::string caption_document(const std::vector<Entry>& entries, const CaptionRun
     largest_ell = std::min(largest_ell, each.largest_ell);
   }
   std::string text = "# Figures 1 to 6 of Praly, Marconi and Isidori: the numbers of their captions\n\n";
-  text += "**" + count_sentence(entries) + "** ";
+  text += "**" + count_sentence(entries, kFittedToCaptions) + "** ";
   const auto of_twelve = [](int count) {
     return count == static_cast<int>(kNumbers) ? std::string("all twelve")
            : count == 0                        ? std::string("none of the twelve")

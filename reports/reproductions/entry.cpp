@@ -235,7 +235,7 @@ std::string entry_table(std::span<const Entry> entries) {
   return certificates::markdown::table({"Place", "What", "Printed", "Ours", "Verdict", "Id"}, rows);
 }
 
-std::string count_sentence(std::span<const Entry> entries) {
+std::string count_sentence(std::span<const Entry> entries, std::string_view fitted) {
   const auto count = [&](EntryVerdict verdict) {
     return static_cast<std::size_t>(std::count_if(
         entries.begin(), entries.end(), [&](const Entry& entry) { return entry.verdict == verdict; }));
@@ -251,7 +251,8 @@ std::string count_sentence(std::span<const Entry> entries) {
       text += (text.empty() ? "" : ", ") + counted(number_of, forms.first, forms.second);
     }
   }
-  return fmt::format("Of {}, {}.", counted(entries.size(), "entry", "entries"), text);
+  const std::string begin = fitted.empty() ? "Of" : fmt::format("With {}, of", fitted);
+  return fmt::format("{} {}, {}.", begin, counted(entries.size(), "entry", "entries"), text);
 }
 
 std::string too_few_runs(std::span<const Entry> entries, int runs) {

@@ -117,8 +117,9 @@ struct Entry {
 /// The rows as a table in Markdown: place, what, printed, ours, verdict, id.
 [[nodiscard]] std::string entry_table(std::span<const Entry> entries);
 
-/// "Of 12 entries 8 agree, 3 do not agree, 1 cannot be compared."
-[[nodiscard]] std::string count_sentence(std::span<const Entry> entries);
+/// "Of 12 entries, 8 agree, 3 do not agree, 1 cannot be compared." `fitted`: what was fitted to the very
+/// numbers that are compared, "a signal fitted to this table": then the sentence begins with it.
+[[nodiscard]] std::string count_sentence(std::span<const Entry> entries, std::string_view fitted = {});
 
 /// In place of what a report concludes, when its runs are too few.
 inline constexpr const char* kNoConclusion = "So few runs allow no conclusion.\n\n";

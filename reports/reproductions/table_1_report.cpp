@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "analysis/experiments/random_starts.hpp"
@@ -15,6 +16,10 @@
 namespace veritrack::reports {
 
 namespace {
+
+/// For the first sentence: what makes the entries agree.
+constexpr std::string_view kFittedToTable1 =
+    "a signal fitted to the column \"EKF, actual\" and to Table 3.2 of the thesis";
 
 using namespace swept_tone;
 
@@ -149,7 +154,7 @@ std::string table_1_document(const std::vector<Entry>& entries, const std::array
   std::string text = "# Table I of La Scala and Bitmead (1996): the EKF and an adaptive notch filter\n\n";
   const std::string warning = too_few_runs(entries, runs);
   text += warning.empty() ? "" : "*" + warning + "*\n\n";
-  text += "**" + count_sentence(entries) + "** ";
+  text += "**" + count_sentence(entries, kFittedToTable1) + "** ";
   const auto mean = [](const Sums& sums) { return experiments::summary_of(sums).mean; };
   text += !warning.empty()
               ? std::string(kNoConclusion)

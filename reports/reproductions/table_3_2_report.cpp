@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "certificates/document/markdown_text.hpp"
@@ -15,6 +16,10 @@
 namespace veritrack::reports {
 
 namespace {
+
+/// For the first sentence: what makes the entries agree.
+constexpr std::string_view kFittedToTable32 =
+    "a signal fitted to this table and to Table I of the paper of 1996";
 
 using namespace swept_tone;
 using experiments::SweptTone;
@@ -146,7 +151,7 @@ std::string table_3_2_document(const std::vector<Entry>& entries, const std::arr
   }
   const experiments::Median median = experiments::median_of(best_q(studies[0].figure));
   text +=
-      "**" + count_sentence(entries) + "** " +
+      "**" + count_sentence(entries, kFittedToTable32) + "** " +
       (!warning.empty()
            ? std::string(kNoConclusion)
            : fmt::format(

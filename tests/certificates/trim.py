@@ -66,6 +66,10 @@ From tests/certificates/regulator.toml, a regulator with a tracker of two channe
 regulator         as it is, its tracker's certificate without what the regulator does not need
 From tests/certificates/model-filter-long-run.toml, the same filter:
 model-filter-long-run  its tubes for the assumed noise, and in the long run
+From tests/certificates/model-filter-parts.toml, the same filter and a constant amplitude in a range:
+model-filter-parts  its tubes for the assumed noise and in the long run, twice: two parts of the range that overlap
+From tests/certificates/model-phase-difference.toml, a linear filter and the difference of two phases:
+model-phase-difference  its tubes for the assumed noise and for the largest one
 From tests/certificates/model-filter-moving.toml, the same filter and a frequency that moves through two cells:
 model-filter-moving  its tubes for what is assumed
 From tests/certificates/recursion.toml, the single-channel tracker at almost one frequency:
@@ -351,6 +355,22 @@ def model_gaussian(certificate):
                              if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
+def model_filter_parts(certificate):
+    keep(certificate, [], ["model/guarantee", "model/frequency-error-bound"])
+    certificate["tubes"] = [
+        dict(tubes, amplitude=[up(float.fromhex(low)).hex() if is_second else low, high])
+        for tubes in certificate["tubes"] if tubes["name"] in ("assumed", "long-run")
+        for low, high in [tubes["amplitude"]] for is_second in (False, True)]
+
+
+def model_phase_difference(certificate):
+    keep(certificate, [], [c["id"] for c in certificate["claims"] if c["id"] != "model/steady-state"])
+    certificate["tubes"] = [tubes for tubes in certificate["tubes"] if tubes["name"] != "starts"]
+    claims = {claim["id"]: claim for claim in certificate["claims"]}
+    claims["model/limits"].update(
+        reach="0.1", reach_frequency_error=claims["model/guarantee"]["frequency_error"])
+
+
 def model_filter_moving(certificate):
     """The same, with two levels."""
     model_moving(certificate)
@@ -469,6 +489,8 @@ KINDS = {
     "regulator": regulator,
     "model-filter-long-run": model_long_run,
     "model-filter-moving": model_filter_moving,
+    "model-filter-parts": model_filter_parts,
+    "model-phase-difference": model_phase_difference,
     "dft-block": without_false_locks,
     "dft-block-covariance": without_false_locks,
     "dft-block-gaussian": dft_block_gaussian,

@@ -6,11 +6,27 @@ import unittest
 import urllib.parse
 import xml.etree.ElementTree
 
-from support import DESIGN, CliTestCase
+import jsonschema
+from support import DESIGN, ROOT, CliTestCase
 
 # The assumed start exceeds the first bound; settling within one sample is not certified.
 HARD = DESIGN + "\n[require]\nfrequency_error_below = 0.001\nsettled_below = 0.002\nsettles_within = 1\n"
 HARD_LINES = [HARD.splitlines().index(line) + 1 for line in (HARD.splitlines()[-3], HARD.splitlines()[-1])]
+
+
+SCHEMA = json.loads((ROOT / "reports/check/check.schema.json").read_text())
+REQUIRED = DESIGN + "\n[require]\nfrequency_error_below = 0.05\n"
+
+
+def validated(path):
+    """The JSON of a report, as its schema says."""
+    report = json.loads(path.read_text())
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    jsonschema.Draft202012Validator(SCHEMA).validate(report)
+    return report
+
+
+REPORTS = ("--json", "report.json", "--junit", "report.xml", "--sarif", "report.sarif")
 
 
 class Check(CliTestCase):
@@ -42,7 +58,8 @@ class Check(CliTestCase):
         self.write(HARD, "hard.toml")
         result = self.run_here("check", "fine.toml", "hard.toml", "fine.toml")
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertEqual(len(result.stdout.splitlines()), 4)
+        self.assertEqual(len(result.stdout.splitlines()), 5)
+        self.assertTrue(result.stdout.endswith("\n3 designs: 1 refuted, 2 with nothing required\n"), result.stdout)
 
     def test_junit(self):
         self.write(HARD, "hard <&>.toml")
@@ -74,13 +91,50 @@ class Check(CliTestCase):
         result = self.run_here("check", "design.toml", "--strict")
         self.assertEqual((result.returncode, result.stdout), (1, "design.toml: nothing required\n"), result.stderr)
 
+    def test_what_strict_refuses_is_in_every_report(self):
+        self.write(DESIGN)
+        self.write(REQUIRED, "required.toml")
+        for cached in (False, True):
+            result = self.run_here("check", "design.toml", "required.toml", "--strict", *REPORTS,
+                                   env={**os.environ, "GITHUB_ACTIONS": "true"})
+            self.assertEqual(result.returncode, 1, (cached, result.stderr))
+            self.assertIn("::error file=design.toml,title=nothing-required::", result.stdout)
+            suites = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()
+            self.assertEqual([(suite.get("tests"), suite.get("failures"), suite.get("errors")) for suite in suites],
+                             [("1", "1", "0"), ("1", "0", "0")])
+            self.assertEqual(suites[0][0].find("failure").get("type"), "nothing-required")
+            (found,) = json.loads((self.folder / "report.sarif").read_text())["runs"][0]["results"]
+            self.assertEqual((found["ruleId"], found["level"]), ("nothing-required", "error"))
+            report = validated(self.folder / "report.json")
+            self.assertEqual((report["exit_status"], report["summary"]), (1, "2 designs: 1 proved, 1 with nothing required"))
+            self.assertEqual(report["designs"][0]["verdict"], "nothing-required")
+            self.assertEqual(report["designs"][0]["error"]["kind"], "nothing-required")
+        # What is kept is not what --strict makes of it.
+        self.assertEqual(self.run_here("check", "design.toml").returncode, 0)
+
+    def test_a_report_that_cannot_be_written_is_in_the_others(self):
+        self.write(REQUIRED)
+        (self.folder / "folder").mkdir()
+        for where, done in (("folder", False), ("/dev/full", True)):
+            with self.subTest(where=where):
+                result = self.run_here("check", "design.toml", "--sarif", where, *REPORTS[:4])
+                self.assertEqual(result.returncode, 2)
+                self.assertTrue(result.stderr.startswith(f"{where}: cannot be written: "), result.stderr)
+                report = validated(self.folder / "report.json")
+                self.assertEqual(report["exit_status"], 2)
+                self.assertEqual([design.get("error", {}).get("kind") for design in report["designs"]],
+                                 [None] * done + ["cannot-write"])
+                suites = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()
+                self.assertEqual([suite.get("errors") for suite in suites], ["0"] * done + ["1"])
+
     def test_one_bad_file_does_not_hide_the_others(self):
         self.write(HARD)
         self.write(DESIGN.replace("q1 =", "q3 ="), "bad.toml")
         result = self.run_here("check", "nowhere.toml", "bad.toml", "design.toml", "--junit", "report.xml",
                                "--sarif", "report.sarif")
         self.assertEqual(result.returncode, 2)
-        self.assertEqual([line.split(":")[0] for line in result.stdout.splitlines()], ["design.toml"] * 2)
+        self.assertEqual([line.split(":")[0] for line in result.stdout.splitlines()], ["design.toml"] * 2 + ["3 designs"])
+        self.assertTrue(result.stdout.endswith("\n3 designs: 1 refuted, 2 bad\n"), result.stdout)
         self.assertEqual([line.split(":")[0] for line in result.stderr.splitlines()], ["nowhere.toml", "bad.toml"])
         suites = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()
         self.assertEqual([suite.get("errors") for suite in suites], ["1", "1", "0"])
@@ -106,7 +160,9 @@ class Check(CliTestCase):
         self.write(DESIGN, "fine.toml")
         result = self.run_here("check", "design.toml", "fine.toml", "nowhere.toml", "--json", "report.json")
         self.assertEqual(result.returncode, 2)
-        report = json.loads((self.folder / "report.json").read_text())
+        report = validated(self.folder / "report.json")
+        self.assertEqual((report["exit_status"], report["summary"]),
+                         (2, "3 designs: 1 refuted, 1 with nothing required, 1 bad"))
         self.assertEqual(report["schema"], "veritrack/check/1")
         self.assertEqual([design["path"] for design in report["designs"]], ["design.toml", "fine.toml", "nowhere.toml"])
         hard, fine, nowhere = report["designs"]
@@ -123,13 +179,21 @@ class Check(CliTestCase):
         self.write("not a design", "a/readme.txt")
         result = self.run_here("check", ".")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stdout.splitlines(), [f"./{name}/design.toml: nothing required" for name in "abc"])
+        self.assertEqual(result.stdout.splitlines(), [f"./{name}/design.toml: nothing required" for name in "abc"]
+                         + ["3 designs: 3 with nothing required"])
 
     def test_a_folder_without_designs_is_bad_input(self):
         (self.folder / "empty").mkdir()
-        result = self.run_here("check", "empty")
+        self.write(REQUIRED)
+        result = self.run_here("check", "empty", "design.toml", *REPORTS)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("allowed: a folder with files *.toml", result.stderr)
+        self.assertIn("empty: has no design file; allowed: a folder with files *.toml", result.stderr)
+        # The other design is checked, and the reports say what is wrong.
+        report = validated(self.folder / "report.json")
+        self.assertEqual(report["summary"], "2 designs: 1 proved, 1 bad")
+        self.assertEqual(report["designs"][0]["error"]["kind"], "bad-input")
+        suites = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()
+        self.assertEqual([suite.get("errors") for suite in suites], ["1", "0"])
 
     def test_the_number_of_jobs_changes_nothing(self):
         for number in range(3):
@@ -144,11 +208,13 @@ class Check(CliTestCase):
     def test_a_limit_stops_any_tracker(self):
         self.write(HARD.replace("noise = 0.001", "noise = { snr_db = 17 }\nsamples = 1e6").split("[require]")[0]
                    + "[require]\nprobability_of_losing_lock_below = 1e-6\n")
-        result = self.run_here("check", "design.toml", "--timeout", "0.3", "--junit", "report.xml")
+        result = self.run_here("check", "design.toml", "--timeout", "0.3", *REPORTS)
         self.assertEqual((result.returncode, result.stderr), (1, ""))
         self.assertEqual(result.stdout, "design.toml: undecided: stopped after 0.3 s (--timeout)\n")
         suite = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()[0]
         self.assertEqual(suite[0].find("error").get("type"), "time-limit")
+        report = validated(self.folder / "report.json")
+        self.assertEqual((report["exit_status"], report["summary"]), (1, "1 design: 1 undecided"))
 
 
 class Cache(CliTestCase):
@@ -182,6 +248,30 @@ class Cache(CliTestCase):
         self.write(HARD + "# changed\n")
         self.check()
         self.assertEqual(len(self.kept()), 2)
+
+    def test_what_was_not_stopped_is_kept_under_a_limit_as_well(self):
+        limited = self.check("--timeout", "1000")
+        self.assertEqual(len(self.kept()), 1)
+        path = self.kept()[0]
+        path.write_text(path.read_text().replace("refuted", "proved").replace("undecided", "proved"))
+        self.assertEqual(limited.returncode, 1)
+        self.assertEqual(self.check("--timeout", "1000").returncode, 0)
+        self.assertEqual(self.check().returncode, 0)
+
+    def test_what_a_limit_stopped_is_not_kept(self):
+        self.write((ROOT / "designs/models/aranovskiy.toml").read_text() + "\n[require]\nfrequency_error_below = 0.05\n")
+        result = self.check("--timeout", "0.001")
+        self.assertIn("undecided: ", result.stdout)
+        self.assertEqual(self.kept(), [])
+
+    def test_what_was_cut_short_is_read_where_it_is_decided(self):
+        self.check()
+        path = self.kept()[0]
+        text = path.read_text().replace('"cut_short":false', '"cut_short":true')
+        path.write_text(text.replace("refuted", "proved"))
+        self.assertEqual(self.check().returncode, 1)  # with an UNDECIDED in it: checked again
+        path.write_text(text.replace("refuted", "proved").replace("undecided", "proved"))
+        self.assertEqual(self.check().returncode, 0)
 
     def test_what_others_can_write_to_is_not_read(self):
         self.check()

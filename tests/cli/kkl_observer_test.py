@@ -27,7 +27,7 @@ class KklObserver(CliTestCase):
     def certify(self, text):
         """The run, the derivations as report.json tells them, and all of report.json."""
         self.write(text)
-        result = self.run_here("certify", "design.toml", "--out", "out")
+        result = self.run_here("certify", "--no-verify", "design.toml", "--out", "out")
         self.assertIn(result.returncode, (0, 1), result.stderr)
         _, report = read_documents(self.folder / "out")
         return result, {derivation["id"]: derivation for derivation in report["derivations"]}, report

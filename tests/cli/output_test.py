@@ -71,15 +71,20 @@ class Output(CliTestCase):
                     self.assertEqual((self.folder / "design.toml").read_text(), DESIGN)
                     self.assertEqual((self.folder / "other.toml").read_text(), DESIGN)
         shutil.copy(self.folder / "design.toml", self.folder / "certificate.json")
-        self.assertEqual(self.run_here("certify", "certificate.json", "--out", ".").returncode, 2)
+        self.assertEqual(self.run_here("certify", "--no-verify", "certificate.json", "--out", ".").returncode, 2)
         self.assertEqual((self.folder / "certificate.json").read_text(), DESIGN)
 
     def test_two_reports_need_two_files(self):
-        self.assertEqual(self.run_here("check", "design.toml", "--junit", "a", "--sarif", "./a").returncode, 2)
-        self.assertEqual(self.files(), [])
+        result = self.run_here("check", "design.toml", "--junit", "a", "--sarif", "./a")
+        self.assertEqual(result.returncode, 2)
+        self.assertTrue(result.stderr.startswith("./a: cannot be written: "), result.stderr)
+        # The first one says it, and no design was checked.
+        self.assertEqual(self.files(), ["a"])
+        (suite,) = xml.etree.ElementTree.parse(self.folder / "a").getroot()
+        self.assertEqual((suite.get("name"), suite.get("errors")), ("./a", "1"))
 
     def test_standard_output_that_cannot_be_written(self):
-        for arguments in (("check", "design.toml"), ("certify", "design.toml"), ("--help",), ("--version",)):
+        for arguments in (("check", "design.toml"), ("certify", "--no-verify", "design.toml"), ("--help",), ("--version",)):
             with self.subTest(arguments=arguments):
                 with open("/dev/full", "w") as full:
                     result = subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdout=full, stderr=subprocess.PIPE,
@@ -126,24 +131,24 @@ class Output(CliTestCase):
         for folder in ("a", "b"):
             (self.folder / folder).mkdir()
             self.write(DESIGN, f"{folder}/x.toml")
-        self.assertEqual(self.run_here("certify", "a/x.toml").returncode, 0)
+        self.assertEqual(self.run_here("certify", "--no-verify", "a/x.toml").returncode, 0)
         document = (self.folder / "certificates-out/x/certificate.md").read_bytes()
-        refused = self.run_here("certify", "b/x.toml")
+        refused = self.run_here("certify", "--no-verify", "b/x.toml")
         self.assertEqual((refused.returncode, refused.stdout), (2, ""))
         self.assertIn("a/x.toml", refused.stderr)
         self.assertIn("--out", refused.stderr)
         self.assertEqual((self.folder / "certificates-out/x/certificate.md").read_bytes(), document)
-        self.assertEqual(self.run_here("certify", "b/x.toml", "--out", "elsewhere").returncode, 0)
-        self.assertEqual(self.run_here("certify", "./a/../a/x.toml").returncode, 0, "the same design again")
+        self.assertEqual(self.run_here("certify", "--no-verify", "b/x.toml", "--out", "elsewhere").returncode, 0)
+        self.assertEqual(self.run_here("certify", "--no-verify", "./a/../a/x.toml").returncode, 0, "the same design again")
         (self.folder / "a/x.toml").unlink()
-        self.assertEqual(self.run_here("certify", "b/x.toml").returncode, 0, "the other one exists no more")
+        self.assertEqual(self.run_here("certify", "--no-verify", "b/x.toml").returncode, 0, "the other one exists no more")
 
     def test_without_gnuplot_all_but_the_figures_is_written(self):
         self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.001\n", "hard.toml")
         (self.folder / "empty").mkdir()
         for design, status in (("design.toml", 0), ("hard.toml", 1)):
             with self.subTest(design=design):
-                result = self.run_here("certify", design, "--out", "out", env={**os.environ, "PATH": "empty"})
+                result = self.run_here("certify", "--no-verify", design, "--out", "out", env={**os.environ, "PATH": "empty"})
                 self.assertEqual(result.returncode, status, result.stderr)
                 self.assertRegex(result.stderr, r"^out/certificate\.md: written without its figures; .*gnuplot.*\n(hard\.toml: veritrack tune .*\n)?$")
                 written = [pathlib.Path(name).name for name in self.files() if name.startswith("out/")]

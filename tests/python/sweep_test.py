@@ -476,13 +476,70 @@ def test_the_figure_shows_verdicts_and_its_line_goes_around_what_is_proved(folde
     values = figures.Values(np.array([1.0, 2, 3, 1, 2, 3]), np.array([1.0, 1, 1, 2, 2, 2]),
                             np.array([0.1, 0.2, np.nan, 0.3, np.nan, np.nan]),
                             np.array(["proved", "undecided", "undecided", "proved", "refuted", "error"]), "a bound",
-                            True)
+                            True, np.zeros(6, bool))
     assert figures.is_met(values, None).tolist() == [True, False, False, True, False, False]
     assert figures.is_met(values, 0.2).tolist() == [True, True, False, False, False, False]
     drawn = figures.region_figure(values, *axes, None)
     assert drawn.count('id="patch_') > 0 and drawn.count("<pattern") == 3  # a hatching for each verdict without a bound
     assert "<pattern" not in figures.region_figure(
         dataclasses.replace(values, bound=np.arange(1.0, 7), verdict=np.full(6, "proved")), *axes, None)
+
+
+def test_a_bound_of_an_early_stop_does_not_look_like_the_best_one():
+    axes = [sweep.Axis(("a.x",), "x", (1, 2, 3)), sweep.Axis(("a.y",), "y", (1, 2))]
+    values = figures.Values(np.array([1.0, 2, 3, 1, 2, 3]), np.array([1.0, 1, 1, 2, 2, 2]), np.arange(1.0, 7),
+                            np.full(6, "proved"), "a bound", True, np.zeros(6, bool))
+    for is_at_most in (True, False):
+        full = dataclasses.replace(values, is_at_most=is_at_most)
+        early = dataclasses.replace(full, early=np.ones(6, bool))
+        mixed = dataclasses.replace(full, early=np.array([True] + 5 * [False]))
+        drawn = [figures.region_figure(each, *axes, None) for each in (full, early, mixed)]
+        assert ["<pattern" in figure for figure in drawn] == [False, True, True]
+        assert len(set(drawn)) == 3
+    # Elsewhere a marker of its own, and in a line and a front a white one.
+    stopped = dataclasses.replace(values, early=np.array([True, False] * 3))
+    some = [0, 1, 2, 4]  # no grid
+
+    def scattered(each):
+        columns = {name: getattr(each, name)[some] for name in ("x", "y", "bound", "verdict", "early")}
+        return figures.region_figure(dataclasses.replace(each, **columns), *axes, None)
+
+    for draw in (lambda each: figures.line_figure(each, axes[0], None), scattered):
+        assert draw(values) != draw(stopped)
+    assert figures.pareto_figure([1, 2], [2, 1], [True, True], [False, True], ("a", "b")) != figures.pareto_figure(
+        [1, 2], [2, 1], [True, True], [False, False], ("a", "b"))
+
+
+@pytest.mark.parametrize("extent, words", [
+    ("everything", "everything that certificates have"),
+    ("requirements", "and not what takes long"),
+    ("verdicts", "a search stops as soon as it has what is required"),
+    ("quick", "what is UNDECIDED here, another extent may prove"),
+])
+def test_the_page_names_its_extent_and_what_that_says_of_its_bounds(folder, stand_in, extent, words):
+    # The stand-in leaves designs with a large q1*r undecided.
+    text = SPEC.replace('base = "base.toml"', f'base = "base.toml"\nextent = "{extent}"')
+    spec = read(folder, text + '\n[report]\nbound = "frequency_error_bound"\nlevel = 0.001\n')
+    run(folder, spec)
+    assert subprocess.run(command(folder, "report"), check=True, capture_output=True).returncode == 0
+    report = (folder / "report.md").read_text()
+    assert f'Extent "{extent}": ' in report and words in report
+    with open(folder / "results.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    found = [row for row in rows if row["search"] == "stopped early"]
+    proved = [row for row in rows if row["verdict"] == "proved"]
+    expected = {"verdicts": len(proved), "quick": len(rows)}.get(extent, 0)
+    assert 0 < len(proved) < len(rows) and len(found) == expected
+    assert (f"The bounds of {expected} designs are those at which the search stopped" in report) == (expected > 0)
+    assert ("more the search stopped early" in report) == (expected > 0)
+    assert ("hatched and lighter than the scale" in report) == (expected > 0)
+
+
+def test_a_design_that_the_time_limit_ended_is_told(folder, stand_in):
+    spec = read(folder)
+    rows = [sweep.Row(0, ("1", "1"), sweep.Result("k", "error", {}, error="stopped after 3 s"))]
+    from veritrack.sweep.report import _extent_sentence
+    assert _extent_sentence(spec, rows).endswith(" 1 design was ended by the time limit.")
 
 
 # ---- progress

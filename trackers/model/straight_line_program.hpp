@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "trackers/scalar_functions.hpp"
@@ -82,6 +83,17 @@ template <typename Scalar>
   return x;
 }
 
+/// x where something is known of `limit`, and nothing otherwise; of numbers x.
+template <typename Scalar>
+[[nodiscard]] Scalar where_known(const Scalar& x, [[maybe_unused]] const Scalar& limit) {
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    return x;
+  } else {
+    const int none = 0;
+    return x + Scalar(none) * limit;
+  }
+}
+
 }  // namespace detail
 
 /// The registers 0, ..., inputs() - 1 hold the inputs, and instruction i writes register inputs() + i. The
@@ -111,11 +123,15 @@ class StraightLineProgram {
     return append({operation, first, second, third, 0});
   }
   void add_result(int result) { results_.push_back(result); }
+  /// Where nothing is known of this register, nothing is known of the first result either: a limit that has
+  /// to be shown, whatever needs it.
+  void add_limit(int limit) { limits_.push_back(limit); }
 
   [[nodiscard]] int inputs() const { return inputs_; }
   [[nodiscard]] int registers() const { return inputs_ + static_cast<int>(instructions_.size()); }
   [[nodiscard]] const std::vector<Instruction>& instructions() const { return instructions_; }
   [[nodiscard]] const std::vector<int>& results() const { return results_; }
+  [[nodiscard]] const std::vector<int>& limits() const { return limits_; }
 
   /// The results for these inputs. `registers` is working space: once it has grown, a run allocates nothing
   /// of its own. Functions of the scalar are found by argument-dependent lookup. Throws std::invalid_argument
@@ -132,6 +148,9 @@ class StraightLineProgram {
     }
     for (std::size_t i = 0; i < results.size(); ++i) {
       results[i] = registers[static_cast<std::size_t>(results_[i])];
+    }
+    for (const int limit : limits_) {
+      results[0] = detail::where_known(results[0], registers[static_cast<std::size_t>(limit)]);
     }
   }
 
@@ -192,6 +211,7 @@ class StraightLineProgram {
   int inputs_;
   std::vector<Instruction> instructions_;
   std::vector<int> results_;
+  std::vector<int> limits_;
   std::map<Instruction, int> known_;
 };
 

@@ -13,6 +13,7 @@
 #include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/sets/harder_questions.hpp"
+#include "analysis/sets/lock_limit.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
@@ -75,7 +76,8 @@ void set_size(const std::optional<Verification>& found, sets::ContractionResult&
   }
   set(result.contraction_rate, "\\sup |T e^+| / |T e|", rate);
   set(result.radius, "", radius);
-  set(result.frequency_error_radius, "R\\,|e_3' T^{-1}|", bounds[2]);
+  set(result.frequency_error_radius, "R\\,|e_3' T^{-1}|",
+      sets::excludes_other_locks(bounds[2]) ? bounds[2] : Interval());
   set(result.phase_error_radius, "R\\,|e_2' T^{-1}|", bounds[1]);
   set(result.amplitude_error_radius, "R\\,|e_1' T^{-1}|", bounds[0]);
 }
@@ -317,8 +319,11 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& aske
   set_promises(question, promises, result.starts);
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
-  set(result.largest_noise, "", noisy ? Interval(noisy->set.noise) : Interval());
-  set(result.largest_slew, "", slewing ? Interval(slewing->set.slew) : Interval());
+  const auto is_lock = [](const std::optional<Verification>& found) {
+    return found && sets::excludes_other_locks(error_bounds(found->set, Interval(found->set.radius))[2]);
+  };
+  set(result.largest_noise, "", is_lock(noisy) ? Interval(noisy->set.noise) : Interval());
+  set(result.largest_slew, "", is_lock(slewing) ? Interval(slewing->set.slew) : Interval());
   if (certificate.set && question.with_samples) {
     add_sampled_quantities(question, certificate, derivation);
   }

@@ -10,7 +10,9 @@
 #include "analysis/quadrature/leak/steady_search.hpp"
 #include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/sets/fixed_point_bias.hpp"
 #include "analysis/sets/harder_questions.hpp"
+#include "analysis/sets/lock_limit.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
@@ -65,9 +67,22 @@ struct Search {
   sets::LockBranch branch;
   double largest_noise = 0.0;  ///< zero when none was certified
   double largest_slew = 0.0;
+  bool is_lock = false;  ///< the frequency errors in every set tell the lock from others
   std::vector<SteadyPiece> radius_sets;
   std::string why;  ///< a clause: why there is no set, or the ground of the set
 };
+
+/// Whether the frequency errors in all sets that were found tell the lock from others.
+bool are_lock(const SteadySearch& found, const sets::LockBranch& branch) {
+  const Interval bias = abs(sets::frequency_bias(branch).value);
+  const auto is_lock = [&](const SteadySet& set) {
+    return sets::excludes_other_locks(bias + error_bounds(set, Interval(1.0))[2]);
+  };
+  const auto of_piece = [&](const SteadyPiece& piece) { return is_lock(piece.set); };
+  return (!found.set || is_lock(found.set->set)) && (!found.slew_set || is_lock(*found.slew_set)) &&
+         std::all_of(found.noise_sets.begin(), found.noise_sets.end(), of_piece) &&
+         std::all_of(found.radius_sets.begin(), found.radius_sets.end(), of_piece);
+}
 
 /// Looks for sets around the lock branch of the band; what is found goes to the certificate.
 Search search(const LeakQuestion& question, LeakCertificate& certificate) {
@@ -80,8 +95,9 @@ Search search(const LeakQuestion& question, LeakCertificate& certificate) {
       sets::is_well_posed(question.tracker)) {
     SteadySearch found = search_steady_sets(question.tracker, search.branch);
     search.why = "no set was found in which the steps contract";
-    search.largest_noise = found.largest_noise();
-    search.largest_slew = found.largest_slew();
+    search.is_lock = are_lock(found, search.branch);
+    search.largest_noise = search.is_lock ? found.largest_noise() : 0.0;
+    search.largest_slew = search.is_lock ? found.largest_slew() : 0.0;
     certificate.derivation.evidence = evidence_of(found);
     search.radius_sets = std::move(found.radius_sets);
     certificate.set = std::move(found.set);
@@ -199,7 +215,7 @@ sets::ContractionResult result_of(const Search& search, const std::optional<Stea
   result.about_steady_state = true;
   set(result.contraction_rate, "\\max_j s_{j+1} / s_j", rate, why);
   set(result.radius, "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt, why);
-  set(result.frequency_error_radius, "|e_3' T^{-1}|", radius(2), why);
+  set(result.frequency_error_radius, "|e_3' T^{-1}|", search.is_lock ? radius(2) : std::nullopt, why);
   set(result.phase_error_radius, "|e_2' T^{-1}|", radius(1), why);
   set(result.amplitude_error_radius, "|e_1' T^{-1}|", radius(0), why);
   sets::StartResult& starts = result.starts;

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstddef>
 #include <map>
+#include <set>
 
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/nearest_key.hpp"
@@ -131,12 +132,36 @@ class Compiler {
   /// Notes the first name that a register is given.
   void name(int place, const std::string& name) { result_.names.try_emplace(place, name); }
   void add_result(int place) { result_.program.add_result(place); }
+  void add_limit(int place) { result_.program.add_limit(place); }
   [[nodiscard]] CompiledProgram take() { return std::move(result_); }
 
  private:
   Names names_;
   CompiledProgram result_;
 };
+
+/// What has to be shown, whether or not anything needs it.
+bool is_limit(const Definition& definition) {
+  const Expression& value = definition.value;
+  const auto function = value.kind == Expression::Kind::call ? find_function(value.text) : std::nullopt;
+  return function && function->operation == Operation::stays_within;
+}
+
+/// Throws LanguageError for a line, no limit, that neither a next value nor a limit needs: nothing would be
+/// known of its operations.
+void require_needed(const std::vector<const Definition*>& ordered) {
+  std::set<std::string> needed;
+  for (auto line = ordered.rbegin(); line != ordered.rend(); ++line) {
+    const Definition& definition = **line;
+    if (definition.name.back() != '\'' && !is_limit(definition) && !needed.contains(definition.name)) {
+      throw LanguageError(definition.position,
+                          fmt::format("{} is unused: delete it, or it is part of what runs; allowed: lines "
+                                      "that a next value needs, and limits, name = stays_within(...)",
+                                      printable(definition.name, kShown)));
+    }
+    for_each_leaf(definition.value, [&](const Expression& leaf) { needed.insert(leaf.text); });
+  }
+}
 
 }  // namespace
 
@@ -189,8 +214,12 @@ CompiledProgram compile_step(const std::vector<Definition>& definitions, const C
   }
   Compiler compiler(constants, inputs);
   std::map<std::string, int> places;
-  for (const Definition* definition : in_order(definitions)) {
+  const std::vector<const Definition*> ordered = in_order(definitions);
+  for (const Definition* definition : ordered) {
     const int place = compiler.place_of(definition->value);
+    if (is_limit(*definition)) {
+      compiler.add_limit(place);
+    }
     compiler.define(definition->name, place);
     compiler.name(place, definition->name);
     places[definition->name] = place;
@@ -204,6 +233,7 @@ CompiledProgram compile_step(const std::vector<Definition>& definitions, const C
     }
     compiler.add_result(next->second);
   }
+  require_needed(ordered);
   return compiler.take();
 }
 

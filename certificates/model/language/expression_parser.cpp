@@ -93,7 +93,7 @@ template <>
 inline constexpr std::string_view kAllowed<grammar::close> = "an operator or ) (or a comma in a function)";
 template <>
 inline constexpr std::string_view kAllowed<grammar::exponent> =
-    "a whole exponent, 0 or more (otherwise sqrt, or exp and log)";
+    "a whole exponent, 1 or more (otherwise sqrt, or exp and log)";
 template <>
 inline constexpr std::string_view kAllowed<grammar::equals> = "= behind the name that is defined";
 template <>
@@ -198,10 +198,11 @@ struct Action<grammar::exponent> {
     int exponent = 0;
     const std::string text = input.string();
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), exponent);
-    if (error != std::errc() || end != text.data() + text.size() || exponent > kLargest) {
-      throw LanguageError(
-          building.place_of(input),
-          fmt::format("the exponent {} is too large; allowed: 0 to {}", printable(text, 40), kLargest));
+    const bool is_read = error == std::errc() && end == text.data() + text.size();
+    if (!is_read || exponent > kLargest || exponent == 0) {
+      throw LanguageError(building.place_of(input),
+                          fmt::format("the exponent {} is too {}; allowed: 1 to {}", printable(text, 40),
+                                      is_read && exponent == 0 ? "small" : "large", kLargest));
     }
     const Position position = building.operands.back().position;
     building.wrap(Expression::Kind::power, position, exponent);

@@ -178,6 +178,9 @@ std::vector<Differentiated> ProgramBuilder::run(const CompiledProgram& compiled,
       name(registers.back().value, named->second);
     }
   }
+  for (const int limit : compiled.program.limits()) {
+    result_.program.add_limit(place_of(registers[static_cast<std::size_t>(limit)].value));
+  }
   std::vector<Differentiated> results;
   results.reserve(compiled.program.results().size());
   for (const int place : compiled.program.results()) {

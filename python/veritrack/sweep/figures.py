@@ -25,7 +25,8 @@ _LEAST_COLOUR, _MOST_COLOUR, _COLOURS = 0.25, 0.95, 48
 
 @dataclasses.dataclass(frozen=True)
 class Values:
-    """What a figure shows of each point: where it is, a bound, NaN where none is proved, and the verdict."""
+    """What a figure shows of each point: where it is, a bound, NaN where none is proved, the verdict, and whether
+    the bound is one at which a search stopped early, and not the best that it finds."""
 
     x: np.ndarray
     y: np.ndarray
@@ -33,6 +34,7 @@ class Values:
     verdict: np.ndarray
     words: str
     is_at_most: bool
+    early: np.ndarray
 
 
 def _svg(figure: matplotlib.figure.Figure) -> str:
@@ -70,6 +72,14 @@ _WITHOUT_BOUND = {
 }
 """Verdicts of cells that show no bound, in words, with their hatching. All other verdicts are left white."""
 
+_EARLY_WORDS = "search stopped early, lighter than the scale: a full one may find better"
+_EARLY_HATCH = "\\\\\\\\"
+
+
+def _lighter(colours) -> matplotlib.colors.ListedColormap:
+    """The same order, nowhere dark: what may not be the best bound does not look like it."""
+    return matplotlib.colors.ListedColormap([str(0.5 + float(shade) / 2) for shade in colours.colors])
+
 
 def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
     """The bound over the plane of two axes: cells in grey, hatched by their verdict where no bound is proved; a
@@ -88,8 +98,10 @@ def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
         if xs.size * ys.size == values.bound.size and xs.size > 1 and ys.size > 1:
             drawn = _draw_cells(axes, values, x, y, xs, ys, norm, colours, level)
         else:
-            drawn = axes.scatter(values.x, values.y, c=values.bound, norm=norm, cmap=colours, s=28,
-                                 edgecolors="0.2", linewidths=0.5)
+            drawn = [axes.scatter(values.x[here], values.y[here], c=values.bound[here], norm=norm, cmap=scale, s=28,
+                                  marker=marker, edgecolors="0.2", linewidths=0.5)
+                     for here, marker, scale in ((~values.early, "o", colours),
+                                                 (values.early, _early_marker(values), _lighter(colours)))][0]
             met = is_met(values, level)
             axes.scatter(values.x[met], values.y[met], s=80, facecolors="none", edgecolors="black", linewidths=1.4)
             _draw_markers(axes, values)
@@ -100,6 +112,11 @@ def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
             if level is not None and proved.min() < level < proved.max():
                 bar.ax.axhline(level, color="black", linewidth=1.6)
         return _svg(figure)
+
+
+def _early_marker(values: Values) -> str:
+    """A triangle to where a better bound would be."""
+    return "v" if values.is_at_most else "^"
 
 
 def _draw_cells(axes, values: Values, x: Axis, y: Axis, xs: np.ndarray, ys: np.ndarray, norm, colours,
@@ -118,12 +135,24 @@ def _draw_cells(axes, values: Values, x: Axis, y: Axis, xs: np.ndarray, ys: np.n
                               edgecolor="0.6", hatch=hatch, linewidth=0.0)
         if cells.any():
             patches.append(matplotlib.patches.Patch(facecolor="white", edgecolor="0.6", hatch=hatch, label=words))
-    drawn = axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(grid), norm=norm, cmap=colours, shading="flat",
-                            edgecolors="face", linewidth=0.1)
+    early = values.early & np.isfinite(values.bound)
+    stopped = np.zeros(grid.shape, bool)
+    stopped[place] = early
+    scales = [(~stopped, colours)] + ([(stopped, _lighter(colours))] if early.any() else [])
+    drawn = [axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(np.where(shown, grid, np.nan)), norm=norm,
+                             cmap=scale, shading="flat", edgecolors="face", linewidth=0.1)
+             for shown, scale in scales][0]
+    for row, column in zip(place[0][early], place[1][early]):
+        axes.fill_between(x_edges[column:column + 2], y_edges[row], y_edges[row + 1], facecolor="none",
+                          edgecolor="0.5", hatch=_EARLY_HATCH, linewidth=0.0)
+    if early.any():
+        patches.append(matplotlib.patches.Patch(facecolor="0.8", edgecolor="0.5", hatch=_EARLY_HATCH,
+                                                label=_EARLY_WORDS))
     if met.any() and not met.all():
         _draw_border(axes, met, x_edges, y_edges)
     if patches:
-        axes.legend(handles=patches, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False,
+        axes.legend(handles=patches, loc="upper center", bbox_to_anchor=(0.5, -0.14),
+                    ncols=1 if early.any() else 3, frameon=False,
                     handlelength=2.4, handleheight=1.4)
     axes.set_xlim(x_edges[0], x_edges[-1])
     axes.set_ylim(y_edges[0], y_edges[-1])
@@ -160,7 +189,10 @@ def line_figure(values: Values, x: Axis, level: float | None) -> str:
         figure = matplotlib.figure.Figure(figsize=(7.2, 4.0), layout="constrained")
         axes = figure.add_subplot()
         order = np.argsort(values.x)
-        axes.plot(values.x[order], values.bound[order], marker="o", color="black", linewidth=1.2, markersize=4)
+        axes.plot(values.x[order], values.bound[order], color="black", linewidth=1.2)
+        for here, marker, fill in ((~values.early, "o", "black"), (values.early, _early_marker(values), "white")):
+            axes.plot(values.x[here], values.bound[here], marker=marker, linestyle="none", color="black",
+                      markerfacecolor=fill, markersize=4 if fill == "black" else 6)
         proved = np.isfinite(values.bound) & (values.verdict == "proved")
         if not (values.verdict == "nothing-required").any():
             axes.plot(values.x[proved], values.bound[proved], marker="o", linestyle="none", color="black",
@@ -178,15 +210,20 @@ def line_figure(values: Values, x: Axis, level: float | None) -> str:
 
 
 def pareto_figure(first: Sequence[float], second: Sequence[float], on_front: Sequence[bool],
-                  words: tuple[str, str]) -> str:
-    """Two bounds of each design; those that no other design beats in both are joined."""
+                  early: Sequence[bool], words: tuple[str, str]) -> str:
+    """Two bounds of each design; those that no other design beats in both are joined, and those of an early stop are
+    white."""
     with matplotlib.rc_context(_STYLE):
         figure = matplotlib.figure.Figure(figsize=(7.2, 4.6), layout="constrained")
         axes = figure.add_subplot()
         x, y, front = np.array(first), np.array(second), np.array(on_front, bool)
-        axes.scatter(x[~front], y[~front], s=16, c="0.7", edgecolors="0.5", linewidths=0.4)
+        stopped = np.array(early, bool)
+        for here, fill in ((~front & ~stopped, "0.7"), (~front & stopped, "white")):
+            axes.scatter(x[here], y[here], s=16, c=fill, edgecolors="0.5", linewidths=0.4)
         order = np.argsort(x[front], kind="stable")
-        axes.plot(x[front][order], y[front][order], marker="o", color="black", linewidth=1.2, markersize=5)
+        axes.plot(x[front][order], y[front][order], color="black", linewidth=1.2)
+        for here, fill in ((front & ~stopped, "black"), (front & stopped, "white")):
+            axes.plot(x[here], y[here], marker="o", linestyle="none", color="black", markerfacecolor=fill, markersize=5)
         axes.set_xlabel(_wrapped(words[0], 70))
         axes.set_ylabel(_wrapped(words[1], 42))
         if (x > 0).all() and x.max() > 5 * x.min():

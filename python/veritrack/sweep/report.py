@@ -11,8 +11,8 @@ from typing import Mapping, Sequence
 
 from .. import _engine, _toml
 from ..certificate import write_file
-from .shown import (WORDS_OF_VERDICTS, ReportFigure, bound_names, figures_of, first_upper, level_of, missing_bounds,
-                    pareto_front, report_bound)
+from .shown import (EXTENTS, WORDS_OF_VERDICTS, ReportFigure, bound_names, figures_of, first_upper, level_of,
+                    missing_bounds, pareto_front, report_bound, stopped_early)
 from .spec import Axis, Spec
 from .store import Row, Store, bound_of
 
@@ -56,14 +56,16 @@ def _csv(spec: Spec, rows: Sequence[Row]) -> str:
     names = list(bound_names(rows))
     out = io.StringIO()
     writer = csv.writer(out)
-    writer.writerow(["point", *(key for axis in spec.axes for key in axis.keys), "verdict",
+    writer.writerow(["point", *(key for axis in spec.axes for key in axis.keys), "verdict", "search",
                      *(f"{name} {end}" for name in names for end in ("lo", "hi")), "certificate_sha256", "error"])
     for row in rows:
         bounds = [bound_of(row, name) for name in names]
         ends = [end for bound in bounds for end in (("", "") if bound is None
                                                     else (bound.lower(17), bound.upper(17)))]
         values = [value for axis, value in zip(spec.axes, row.values) for _ in axis.keys]
-        writer.writerow([row.number, *values, row.result.verdict, *ends, row.result.certificate_sha256,
+        search = ("none" if row.result.verdict == "error" else
+                  "stopped early" if stopped_early(spec, row) else "complete")
+        writer.writerow([row.number, *values, row.result.verdict, search, *ends, row.result.certificate_sha256,
                          row.result.error])
     return out.getvalue()
 
@@ -76,6 +78,7 @@ def _markdown(spec: Spec, rows: Sequence[Row], drawn: Sequence[ReportFigure],
     lines += [f"{_md(spec.name)}. Each design has a certificate of its own; `veritrack sweep verify "
               f"{pathlib.Path(spec.file).name}` makes certificates again and has them proved by the independent "
               "checker.", ""]
+    lines += [_extent_sentence(spec, rows), ""]
     if missing:
         lines += [f"**{missing} of {spec.size} designs have no result yet.**", ""]
     lines += ["| verdict | designs |", "|---|--:|"]
@@ -104,6 +107,18 @@ def _headline(spec: Spec, rows: Sequence[Row], counts: Mapping[str, int]) -> str
     return f"{counts['proved']} of {spec.size} designs are PROVED to do all that is required"
 
 
+def _extent_sentence(spec: Spec, rows: Sequence[Row]) -> str:
+    """What was looked for, and what that says of the bounds."""
+    words = f'Extent "{spec.extent}": {EXTENTS[spec.extent]}.'
+    early = sum(stopped_early(spec, row) and bool(row.result.bounds) for row in rows)
+    if early:
+        words += (f" The bounds of {early} design{'s' if early > 1 else ''} are those at which the search stopped, and "
+                  'not the best ones; `extent = "requirements"` looks on.')
+    if stopped := sum(row.result.verdict == "error" and row.result.error.startswith("stopped after ") for row in rows):
+        words += f" {stopped} design{'s were' if stopped > 1 else ' was'} ended by the time limit."
+    return words
+
+
 def _md(text: str) -> str:
     """Text in which nothing is mark-up."""
     return "".join("\\" + c if c in "\\`*_[]<>|#$" else c for c in " ".join(text.split()))
@@ -124,14 +139,18 @@ def _level_sentence(spec: Spec, rows: Sequence[Row]) -> list[str]:
     name, level = report_bound(spec, rows), level_of(spec)
     if name is None or level is None:
         return []
-    bounds = [bound for row in rows if (bound := bound_of(row, name)) is not None]
-    if not bounds:
+    found = [(bound, stopped_early(spec, row)) for row in rows if (bound := bound_of(row, name)) is not None]
+    if not found:
         return []
-    at_least = bounds[0].sense == "at least"
-    met = sum(bound.value >= level if at_least else bound.value <= level for bound in bounds)
-    words = bounds[0].words or name.replace("_", " ")
-    return [f"For {met} designs this is certified to be {'at least' if at_least else 'at most'} "
-            f"{spec.report['level']}: {_md(words)}.", ""]
+    first = found[0][0]
+    at_least = first.sense == "at least"
+    met = [bound.value >= level if at_least else bound.value <= level for bound, _ in found]
+    open_ = sum(early and not is_met for (_, early), is_met in zip(found, met))
+    words = first.words or name.replace("_", " ")
+    return [f"For {sum(met)} designs this is certified to be {'at least' if at_least else 'at most'} "
+            f"{spec.report['level']}: {_md(words)}."
+            + (f" Of {open_} more the search stopped early, and a full one may find that as well." if open_ else ""),
+            ""]
 
 
 def _front_table(spec: Spec, rows: Sequence[Row]) -> list[str]:

@@ -20,6 +20,16 @@ WORDS_OF_VERDICTS = {  # where several designs are at one place of a figure, the
 }
 
 
+EXTENTS = {
+    "everything": "everything that certificates have was looked for",
+    "requirements": "what is required was looked for, and not what takes long beside it",
+    "verdicts": "the verdicts alone were looked for: a search stops as soon as it has what is required",
+    "quick": "one set that does all that is required was looked for, and no other: what is UNDECIDED here, another "
+             "extent may prove",
+}
+"""In words, as the report names them."""
+
+
 @dataclasses.dataclass(frozen=True)
 class ReportFigure:
     file: str
@@ -40,6 +50,12 @@ def bound_names(rows: Sequence[Row]) -> dict[str, str]:
 def report_bound(spec: Spec, rows: Sequence[Row]) -> str | None:
     """The bound of the regions: as asked for, or the first that occurs."""
     return spec.report.get("bound") or next(iter(bound_names(rows)), None)
+
+
+def stopped_early(spec: Spec, row: Row) -> bool:
+    """Whether the bounds of a row are those at which a search stopped: a full one may find better ones. What
+    `extent = "verdicts"` leaves UNDECIDED it has looked at to the end."""
+    return spec.stops_early and (spec.extent == "quick" or row.result.verdict == "proved")
 
 
 def _number_axes(spec: Spec) -> list[Axis]:
@@ -65,9 +81,11 @@ def _values(spec: Spec, rows: Sequence[Row], name: str, plane: Sequence[Axis]) -
     sense, words = "at most", name.replace("_", " ")
     best: dict[tuple[float, ...], float] = {}
     verdicts: dict[tuple[float, ...], str] = {}
+    early: dict[tuple[float, ...], bool] = {}
     for row in rows:
         place = tuple(float(row.values[index]) for index in places)
         best.setdefault(place, math.nan)
+        early.setdefault(place, False)
         verdicts[place] = min(verdicts.get(place, row.result.verdict), row.result.verdict,
                               key=list(WORDS_OF_VERDICTS).index)
         bound = bound_of(row, name)
@@ -75,10 +93,11 @@ def _values(spec: Spec, rows: Sequence[Row], name: str, plane: Sequence[Axis]) -
             sense, words = bound.sense, bound.words or words
             is_better = bound.value > best[place] if sense == "at least" else bound.value < best[place]
             if math.isnan(best[place]) or is_better:
-                best[place] = bound.value
+                best[place], early[place] = bound.value, stopped_early(spec, row)
     table = np.array([[*place, value] for place, value in best.items()])
     return figures.Values(table[:, 0], table[:, min(1, len(plane) - 1)], table[:, -1],
-                          np.array(list(verdicts.values())), words, sense != "at least")
+                          np.array(list(verdicts.values())), words, sense != "at least",
+                          np.array(list(early.values()), bool))
 
 
 def level_of(spec: Spec) -> float | None:
@@ -98,18 +117,25 @@ def figures_of(spec: Spec, rows: Sequence[Row]) -> list[ReportFigure]:
         if len(plane) == 2:
             best = "smallest" if values.is_at_most else "largest"
             caption = (f"{first_upper(values.words)}, as certified for each design: dark where it is {best}, hatched "
-                       f"or crossed where none is proved.")
+                       f"on white or crossed where none is proved.")
             around = ("for which it is "
                       f"{'at most' if values.is_at_most else 'at least'} {spec.report['level']}" if level is not None
                       else "that are PROVED to do all that is required")
             met = figures.is_met(values, level)
             if met.any() and not met.all():
                 caption += f" The thick line goes around the designs {around}."
+            if values.early.any():
+                caption += (" Where cells are hatched and lighter than the scale, or triangles, the search stopped as "
+                            "soon as it had what is required: a full one may find a "
+                            f"{'smaller' if values.is_at_most else 'larger'} bound.")
             svg = figures.region_figure(values, plane[0], plane[1], level)
         else:
             caption = (f"{first_upper(values.words)}, as certified for each design, with a ring where the design is "
                        "PROVED to do all that is required; a cross where none is proved."
                        + (f" Dashed: {spec.report['level']}." if level is not None else ""))
+            if values.early.any():
+                caption += (" Where there is a triangle the search stopped as soon as it had what is required: a full "
+                            f"one may find a {'smaller' if values.is_at_most else 'larger'} bound.")
             svg = figures.line_figure(values, plane[0], level)
         drawn.append(ReportFigure("regions.svg", "Certified bound over the designs", caption + others, svg))
     front = pareto_front(spec, rows)
@@ -117,9 +143,11 @@ def figures_of(spec: Spec, rows: Sequence[Row]) -> list[ReportFigure]:
         drawn.append(ReportFigure(
             "pareto.svg", "Designs by two bounds",
             f"Each dot is a design by two certified bounds. No design is better in both than one of the "
-            f"{len(front.front)} that are joined.",
+            f"{len(front.front)} that are joined."
+            + (" White: the search stopped as soon as it had what is required, and a full one may find better bounds."
+               if any(stopped_early(spec, row) for row in front.rows) else ""),
             figures.pareto_figure(front.first, front.second, [row in front.front for row in front.rows],
-                                  front.words)))
+                                  [stopped_early(spec, row) for row in front.rows], front.words)))
     return drawn
 
 

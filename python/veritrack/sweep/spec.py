@@ -110,6 +110,11 @@ class Spec:
     report: Mapping[str, Any]
 
     @property
+    def stops_early(self) -> bool:
+        """Whether searches end as soon as they have what is required: bounds are then no better than that needs."""
+        return self.extent in ("verdicts", "quick")
+
+    @property
     def size(self) -> int:
         """How many points there are."""
         return math.prod(len(axis.values) for axis in self.axes if not axis.is_sampled) * self.count

@@ -30,6 +30,39 @@ TEST_CASE("the document is the one that was looked at") {
                      VERITRACK_SOURCE_DIR "/tests/certificates/golden/published-theorems.md");
 }
 
+TEST_CASE("the first page says whether the certificate was verified, and nothing else depends on it") {
+  using Outcome = certificates::Verification::Outcome;
+  const std::string command =
+      "\n\n```\nveritrack-verify certificate.json --full --design " + test::certificate().design_file +
+      " --markdown certificate.md --markdown published-theorems.md\n```\n\n## What was required";
+  const auto document = [](const certificates::Verification& verification) {
+    certificates::MarkdownOptions options = kOptions;
+    options.verification = verification;
+    return certificates::to_markdown(test::certificate(), options);
+  };
+  const std::string left_out = document({});
+  const std::string unsaid = "*Not verified* when this document was written. To verify it:";
+  CHECK(left_out.find(unsaid + command) != std::string::npos);
+  const std::string said = "*Verified* by `veritrack-verify` " VERITRACK_VERSION
+                           ", which shares no code with the program that wrote this document. To repeat it:";
+  std::string expected = left_out;
+  expected.replace(expected.find(unsaid), unsaid.size(), said);
+  CHECK(document({Outcome::verified, 8}) == expected);
+
+  const std::string refused =
+      document({Outcome::refused, 8, {{"the set *x*", {"a"}}, {"claim y", {"b", "c"}}}});
+  CHECK(refused.starts_with("# NOT VERIFIED. Nothing is required of this design\n\n"));
+  CHECK(refused.find(
+            "*NOT VERIFIED*: `veritrack-verify` " VERITRACK_VERSION
+            " refuses 2 of 8 parts: the set \\*x\\*; claim y. One of the two programs is wrong: rely on "
+            "nothing in this document. To repeat it:" +
+            command) != std::string::npos);
+  const std::string silent = document({Outcome::refused, 0, {}, "it was ended by signal 9"});
+  CHECK(silent.starts_with("# NOT VERIFIED. "));
+  CHECK(silent.find("*NOT VERIFIED*: `veritrack-verify` " VERITRACK_VERSION " gave no answer. One of") !=
+        std::string::npos);
+}
+
 TEST_CASE("the document has two pages") {
   constexpr std::size_t kTwoPages = 12000;
   CHECK(certificates::to_markdown(test::certificate(), kOptions).size() < kTwoPages);

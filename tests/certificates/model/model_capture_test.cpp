@@ -106,6 +106,7 @@ TEST_CASE("a claim says what is proved of the start, with all that it rests on")
     sets.assumed->tubes.name = "assumed";
     sets.assumed->tubes.is_complete = has_set;
     sets.assumed->frequency_error = 0.0078125;
+    sets.assumed->half_distance = 0.25;
     sets.assumed->settled_error = INFINITY;
     sets.starts.frequency_error = INFINITY;
     sets.capture = capture;

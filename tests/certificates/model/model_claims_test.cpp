@@ -38,6 +38,7 @@ ModelSet set_of(const char* name, double noise, double slew) {
   proved.shrinking = {0.99};
   set.tubes.tubes = {proved};
   set.frequency_error = 0.015625;
+  set.half_distance = 0.25;
   set.settled_error = 0.0078125;
   set.reach = 0.005;
   set.start_share = 0.5;
@@ -242,8 +243,11 @@ TEST_CASE("a part that is empty, or in which too little is proved, has no claims
   sets.starts.reach = sets.assumed->reach = sets.noise->reach = 0.0;  // as with a bias: of the noise alone
   const Certificate biased = certificate_of(sets, text_of(kRequired));
   REQUIRE(find(biased, "model/limits") != nullptr);
-  CHECK(find(biased, "model/limits")->values.size() == 1);
-  CHECK(find(biased, "model/limits")->statement.ends_with(": a certified invariant set exists."));
+  CHECK(find(biased, "model/limits")->values.size() == 2);
+  CHECK(
+      find(biased, "model/limits")
+          ->statement.ends_with(": a certified invariant set exists in which the frequency error stays at or "
+                                "below 0.01563 rad/sample (2.49 Hz)."));
   sets.starts.ripple = INFINITY;
   CHECK_FALSE(has(sets, "model/steady-state"));
   sets = sets_of();
@@ -263,10 +267,12 @@ Told told(const ModelSets& sets, const char* id) {
   const Certificate certificate = certificate_of(sets, text_of(kRequired));
   if (const Claim* claim = find(certificate, id)) {
     for (const auto& [name, text] : claim->values) {
-      (name == "noise"   ? result.noise
-       : name == "slew"  ? result.slew
-       : name == "reach" ? result.reach
-                         : result.from) = text;
+      if (!name.ends_with("frequency_error")) {
+        (name == "noise"   ? result.noise
+         : name == "slew"  ? result.slew
+         : name == "reach" ? result.reach
+                           : result.from) = text;
+      }
     }
     result.statement = claim->statement;
   }
@@ -280,9 +286,12 @@ TEST_CASE("limits are the largest that some set proves over the whole band, and 
   // A search that ends below what is assumed.
   sets.noise->tubes.noise = 0.005;
   CHECK(told(sets, "model/limits").noise == "0.02");
-  CHECK(told(sets, "model/limits")
-            .statement.find(", the tracker tolerates noise up to 0.02 (by the set \"assumed\" of the "
-                            "certificate), and without noise a certified") != std::string::npos);
+  CHECK(
+      told(sets, "model/limits")
+          .statement.find(", the tracker tolerates noise up to 0.02 (by the set \"assumed\" of the "
+                          "certificate): a certified invariant set exists in which the frequency error stays "
+                          "at or below 0.01563 rad/sample (2.49 Hz), and without noise a certified") !=
+      std::string::npos);
   // Or that was not made, or proves it over a part only.
   limit(*sets.noise);
   sets.noise->tubes.noise = 0.5;
@@ -310,6 +319,42 @@ TEST_CASE("limits are the largest that some set proves over the whole band, and 
   CHECK(told(sets, "model/limits").statement.empty());
 }
 
+TEST_CASE("what is said of lock is said of sets that exclude other locks") {
+  ModelSets sets = sets_of();
+  const auto claims_of = [](const ModelSets& of) { return certificate_of(of, text_of(kRequired)); };
+  for (const char* id : {"model/largest-noise", "model/frequency-error-radius"}) {
+    const Claim& claim = *find(claims_of(sets), id);
+    CHECK(claim.verdict == Verdict::proved);
+    CHECK(claim.requirement.find(
+              "in which the frequency error stays at or below 0.01563 rad/sample (2.49 Hz)") !=
+          std::string::npos);
+    REQUIRE(claim.values.size() == 1);
+    CHECK(claim.values[0] == std::pair<std::string, std::string>("frequency_error", "0.01563"));
+  }
+  // The set for the largest noise is none; that for the assumed one is.
+  sets.noise->half_distance = 0.0156;
+  CHECK(told(sets, "model/limits").noise == "0.02");
+  sets.noise->half_distance = 0.25;
+  sets.noise->frequency_error = INFINITY;
+  CHECK(told(sets, "model/limits").noise == "0.02");
+  sets.assumed->half_distance = 0.0156;
+  CHECK(told(sets, "model/limits").noise.empty());
+  const Certificate certificate = claims_of(sets);
+  CHECK(find(certificate, "model/largest-noise")->reason ==
+        "A set was proved. Its frequency is not defined everywhere in it: no lock can be named.");
+  const Claim& radius = *find(certificate, "model/frequency-error-radius");
+  CHECK(radius.verdict == Verdict::undecided);
+  CHECK(radius.values.empty());
+  CHECK(radius.requirement ==
+        "a certified invariant set contains frequency errors up to 0.004 rad/sample at every phase");
+  CHECK(radius.reason ==
+        "The certified set reaches 0.005 rad/sample. Its frequency error may reach 0.01563 rad/sample, and "
+        "from "
+        "0.0156 rad/sample on it may be nearer to a false lock: no lock can be named.");
+  // Its error is bounded all the same.
+  CHECK(find(certificate, "model/guarantee") != nullptr);
+}
+
 TEST_CASE("the largest slew is that of any set for a slew, with the noise of that set") {
   ModelSets sets = sets_of();
   CHECK(told(sets, "model/slew-limit").statement.empty());
@@ -322,8 +367,8 @@ TEST_CASE("the largest slew is that of any set for a slew, with the noise of tha
   CHECK(of_assumed.statement.find(
             "with a frequency that stays in [0.3, 0.32] rad/sample at 1000 samples per second, with noise of "
             "at most 0.02, the tracker tolerates a slew up to 9.536e-7 rad/sample per sample (0.151 Hz per "
-            "second) (by the set \"assumed\" of the certificate): a certified invariant set exists.") !=
-        std::string::npos);
+            "second) (by the set \"assumed\" of the certificate): a certified invariant set exists in which "
+            "the frequency error stays at or below 0.01563 rad/sample (2.49 Hz).") != std::string::npos);
   sets.slew = set_of("slew", 0.0, 0x1p-18);
   const Told of_search = told(sets, "model/slew-limit");
   CHECK(of_search.slew == "3.814e-6");

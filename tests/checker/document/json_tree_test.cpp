@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 using namespace veritrack::checker;
 
@@ -44,4 +45,34 @@ TEST_CASE("no text has two meanings") {
   }
   // The same name in different objects is not a duplicate.
   CHECK(read_json(R"([{"a": 1}, {"a": 2}])").elements().size() == 2);
+}
+
+TEST_CASE("a text is not read beyond so many values") {
+  std::string text = "[";
+  for (int k = 0; k < 4'000'001; ++k) {
+    text += "0,";
+  }
+  text.back() = ']';
+  CHECK_THROWS_WITH_AS((void)read_json(text), "more than 4000000 values", Malformed);
+}
+
+TEST_CASE("what is not read is named, and names that were read are not copied") {
+  const Tree tree = read_json(R"({"a": {"b": ["x", {"c": true}], "d": {}}, "e": 1})");
+  CHECK(tree.unread(10) == std::vector<std::string>{"a.b[0]", "a.b[1].c", "a.d", "e"});
+  CHECK(tree.unread(2) == std::vector<std::string>{"a.b[0]", "a.b[1].c"});
+  CHECK(tree.unread(0).empty());
+  CHECK(tree.at("e").integer() == 1);
+  CHECK(tree.at("a").at("b").at(0).text() == "x");
+  CHECK(tree.unread(10) == std::vector<std::string>{"a.b[1].c", "a.d"});
+  // Once for each name, a copy of the long one would take hours.
+  std::string wide = "{\"" + std::string(1'000'000, 'n') + "\": [";
+  for (int k = 0; k < 100'000; ++k) {
+    wide += "[],";
+  }
+  wide.back() = ']';
+  const Tree read = read_json(wide + "}");
+  for (const Tree& each : read.members().front().second.elements()) {
+    CHECK(each.elements().empty());
+  }
+  CHECK(read.unread(10).empty());
 }

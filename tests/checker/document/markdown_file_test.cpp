@@ -82,8 +82,8 @@ TEST_CASE("a document that says what was verified is accepted") {
 
 // A verdict that is not the verified one is also one that stands where none is known.
 TEST_CASE("every verdict of the document is compared") {
-  CHECK(objections_to(changed("NOT PROVED. ", "")) == 2);
-  CHECK(objections_to(changed("UNDECIDED: it", "PROVED: it")) == 2);
+  CHECK(objections_to(changed("NOT PROVED. ", "")) == 1);
+  CHECK(objections_to(changed("UNDECIDED: it", "PROVED: it")) == 1);
   CHECK(objections_to(changed("**PROVED**: It is so.", "**PROVED**: It is much so.")) == 2);
   CHECK(objections_to(changed("**UNDECIDED**: It might", "**PROVED**: It might")) == 2);
   CHECK(objections_to(changed("**PROVED**: It is so.\n", "")) == 1);
@@ -110,9 +110,72 @@ TEST_CASE("no verdict stands where it is not compared") {
                              "It is PRO\u200bVED.", "It is PRO<!--\n-->VED.", "It is PRO<b\n>VED."}) {
     CHECK(objections_to(changed("Told, with no verdict.", hidden)) == 1);
   }
-  for (const char* harmless : {"R&D, k < 3 && m > 2.", "a <b>word</b>, \u2264 2", "3 < x;"}) {
-    CHECK(objections_to(changed("Told, with no verdict.", harmless)) == 0);
+}
+
+TEST_CASE("a section and a table with verdicts are there once, and nothing else is in them") {
+  const auto added = [](const std::string& text) {
+    return changed("## The rest\n", text + "\n## The rest\n");
+  };
+  for (const char* second :
+       {"## What was required\n", "### What was required\n", "## What was **required**\n",
+        "## What was required, too\n", "# What the checker verifies\n", "## What the `checker` verifies\n",
+        "| Requirement | Verdict |\n| --- | --- |\n| it must be cheap | yes |\n",
+        "|**Requirement**|Verdict|\n", "Requirement | Verdict\n--- | ---\n"}) {
+    CHECK_MESSAGE(objections_to(added(second)) == 1, std::string(second));
   }
+  for (const char* row :
+       {"| it must be cheap | yes | surely |", "|it must be cheap|yes|", "it must be cheap"}) {
+    CHECK_MESSAGE(objections_to(changed("| by this |\n", "| by this |\n" + std::string(row) + "\n")) == 1,
+                  row);
+  }
+  // A sentence in the place of another one.
+  CHECK(objections_to(changed("Told, with no verdict.", "**PROVED**: It is so.")) == 1);
+  CHECK(objections_to(changed("Told, with no verdict.", "| it must be so | **PROVED** | by this |")) == 1);
+}
+
+TEST_CASE("the sentences with verdicts are the first thing that is seen") {
+  const auto before = [](const std::string& text) {
+    return changed("\n\n**PROVED**", "\n\n" + text + "\n\n**PROVED**");
+  };
+  CHECK(objections_to(before("*Stopped by the time limit.* More is possible.")) == 0);
+  CHECK(objections_to(before("")) == 0);
+  for (const char* first :
+       {"All is well.", "> It is so.", "- It is so.", "| It is so. |", "![a](b.svg)", "### More"}) {
+    CHECK_MESSAGE(objections_to(before(first)) == 1, std::string(first));
+  }
+  for (const char* front : {"\n", "\ufeff", " ", "[x]: y\n", "<div>\n", "## More\n"}) {
+    CHECK_MESSAGE(objections_to(front + kDocument) >= 1, std::string(front));
+  }
+}
+
+TEST_CASE("what is quoted ends where its quotation does") {
+  Verification verified = verified_document();
+  verified.quoted = {"Пример, *PROVED*", "Präly <b>"};
+  const auto objections = [&](const std::string& text) {
+    Objections found;
+    compare_with_markdown(verified, kHash, changed("Told, with no verdict.", text), found);
+    return found.size();
+  };
+  CHECK(objections("> Пример, \\*PROVED\\*, from: Präly \\<b\\>\n") == 0);
+  CHECK(objections("> Пример, \\*PROVED\\*\n") == 0);
+  CHECK(objections("> Пример, \\*PROVED\\*\nIt goes on.") == 1);
+  CHECK(objections("Пример, \\*PROVED\\*\n") == 1);
+  CHECK(objections("> Пример, *PROVED*\n") == 1);
+  CHECK(objections("> Another\n") == 0);
+  // The text of the design file is one of any letters, between fences that nothing in it ends.
+  const std::string design = "# ПРOVED, <b> & ~\n```\n";
+  verified.design_sha256 = sha256(design);
+  const auto with_design = [&](const std::string& fence) {
+    Objections found;
+    const std::string block = fence + "toml\n" + design + fence + "\n";
+    compare_with_markdown(verified, kHash, changed("```toml\n" + kDesign + "```\n", block), found);
+    return found.size();
+  };
+  CHECK(with_design("````") == 0);
+  CHECK(with_design("```") >= 1);
+  CHECK(objections_to(changed("```toml", "```mermaid")) == 1);
+  CHECK(objections_to(changed("```toml", "~~~toml")) >= 1);
+  CHECK(objections_to(kDocument.substr(0, kDocument.size() - 4)) == 1);
 }
 
 TEST_CASE("published theorems have a document of their own") {

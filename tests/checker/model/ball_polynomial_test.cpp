@@ -210,19 +210,46 @@ TEST_CASE("every function contains its values, or says that nothing is known") {
 
 TEST_CASE("the angle of a point") {
   test::Random random(83);
-  for (std::int64_t trial = 0; trial < test::effort(2000); ++trial) {
+  int known = 0;
+  for (std::int64_t trial = 0; trial < test::effort(4000); ++trial) {
     Functions functions(random, 2, 1);
     const double size = std::pow(10.0, random.uniform(-3.0, 0.0));
-    const Function y = functions.leaf(random.uniform(-1.0, 1.0), size);
-    const Function x = functions.leaf(random.uniform(-1.0, 1.0), size);
+    const double scale = std::pow(10.0, random.uniform(-6.0, 6.0));
+    const Function y = functions.leaf(scale * random.uniform(-1.0, 1.0), scale * size);
+    const Function x = functions.leaf(scale * random.uniform(-1.0, 1.0), scale * size);
     const Function angle =
         functions.combined(y, x, [](const auto& a, const auto& b) { return arctangent2(a, b); });
     REQUIRE(functions.cover(angle));
+    known += angle.polynomial.known() ? 1 : 0;
   }
-  CHECK_FALSE(arctangent2(BallPolynomial::phase(), BallPolynomial(-1.0)).known());
-  CHECK(arctangent2(BallPolynomial::phase(), BallPolynomial(1.5)).known());
+  CHECK(known > 0);
+  const BallPolynomial s = BallPolynomial::phase();
+  CHECK_FALSE(arctangent2(s, BallPolynomial(-1.0)).known());
+  CHECK_FALSE(arctangent2(BallPolynomial(), BallPolynomial(-1.0)).known());
+  CHECK_FALSE(arctangent2(BallPolynomial(), BallPolynomial()).known());
+  CHECK_FALSE(arctangent2(BallPolynomial(0.5) * s, s).known());
+  CHECK_FALSE(arctangent2(BallPolynomial::everything(), BallPolynomial(1.0)).known());
+  CHECK_FALSE(arctangent2(BallPolynomial(1.0), BallPolynomial::everything()).known());
+  CHECK(arctangent2(s, BallPolynomial(1.5)).known());
   // Of a wide range: x - x^3/3 and at most x^5/5, where the series over the range is far wider.
-  CHECK(certainly_less(arctangent(BallPolynomial(0.9) * BallPolynomial::phase()).range(), Ball(1.3)));
+  CHECK(certainly_less(arctangent(BallPolynomial(0.9) * s).range(), Ball(1.3)));
+}
+
+TEST_CASE("the angle of a point that turns is about as exact in every direction") {
+  test::Random random(88);
+  const VectorMonomials monomials(1, 0);
+  const BallPolynomial x = BallPolynomial::variable(monomials, 0);
+  for (std::int64_t trial = 0; trial < test::effort(300); ++trial) {
+    // Not next to the cut.
+    const double middle = random.uniform(-2.5, 2.5);
+    const double size = random.uniform(0.01, 0.4);
+    const BallPolynomial turned = BallPolynomial(middle) + size * x;
+    const double length = std::pow(10.0, random.uniform(-3.0, 3.0));
+    const BallPolynomial angle = arctangent2(length * sin(turned), length * cos(turned));
+    REQUIRE(angle.known());
+    CHECK(std::abs(angle.constant() - middle) < 1e-14);
+    CHECK((angle - turned).norm() + angle.error() < 0.08 * std::pow(size, 4.0) + std::pow(size, 5.0) + 1e-13);
+  }
 }
 
 TEST_CASE("random expressions") {

@@ -34,7 +34,10 @@ Json constant_certificate() {
                    part_of("noise", 0.02, cells, 0.984375, 1.0),
                    part_of("noise", 0.025, cells, 1.0, 1.015625)};
   json["claims"] = {test::told_claim("model/guarantee", {{"frequency_error", "0.007"}}),
-                    test::told_claim("model/limits", {{"noise", "0.0195"}, {"reach", "0.001"}})};
+                    test::told_claim("model/limits", {{"noise", "0.0195"},
+                                                      {"frequency_error", "0.007"},
+                                                      {"reach", "0.001"},
+                                                      {"reach_frequency_error", "0.007"}})};
   return json;
 }
 

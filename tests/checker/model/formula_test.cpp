@@ -67,7 +67,7 @@ std::string random_formula(test::Random& random, int depth) {
     case 7:
       return "-" + part();
     case 8:
-      return "(" + part() + "\n )^" + std::to_string(random.below(5));
+      return "(" + part() + "\n )^" + std::to_string(1 + random.below(4));
     case 9:
     case 10:
     case 11:

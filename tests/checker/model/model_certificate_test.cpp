@@ -47,6 +47,13 @@ bool refuses(const std::function<void(Json&)>& change) {
   }
 }
 
+/// What a required claim about lock names.
+Json error_of(const std::string& id) {
+  const bool is_about_lock =
+      id == "model/largest-noise" || id == "model/largest-slew" || id == "model/frequency-error-radius";
+  return is_about_lock ? Json{{"frequency_error", "0.014"}} : Json::object();
+}
+
 TEST_CASE("a phase-locked loop is verified, in these words") {
   const Verification found = verify_json(test::loop_certificate());
   for (const Part& part : found.parts) {
@@ -62,8 +69,10 @@ TEST_CASE("a phase-locked loop is verified, in these words") {
         "below 0.014 rad/sample for ever, and at or below 0.0012 rad/sample in the long run.");
   CHECK(found.sentences[1].text ==
         "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.28125, 0.3125] "
-        "rad/sample, the tracker tolerates noise up to 0.039, and without noise a certified invariant set "
-        "contains frequency errors up to 0.0095 rad/sample at every phase.");
+        "rad/sample, the tracker tolerates noise up to 0.039: a certified invariant set exists in which the "
+        "frequency error stays at or below 0.01 rad/sample, and without noise a certified invariant set in "
+        "which it stays at or below 0.014 rad/sample contains frequency errors up to 0.0095 rad/sample at "
+        "every phase.");
   CHECK(
       found.sentences[2].text ==
       "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.28125, 0.3125] "
@@ -202,7 +211,7 @@ TEST_CASE("sets of a part of the band prove claims about that part, and nothing 
   const auto required = [&](const std::string& key, const std::string& id, const Json& number) {
     Json demanding = wider("0.29", "0.3");
     demanding["design"]["require"][key] = number;
-    demanding["claims"].push_back(test::told_claim(id, Json::object(), true));
+    demanding["claims"].push_back(test::told_claim(id, error_of(id), true));
     demanding["verdict"] = "proved";
     CHECK_FALSE(verifies(demanding));
     demanding["claims"].back()["from"] = "0.29";
@@ -251,7 +260,8 @@ TEST_CASE("limits are those of all verified sets, and the sentence names the set
   // The search for the largest noise ended at 0.005; 0.04 is proved by the other set.
   const Json json = with_two_noises(0.005);
   CHECK(sentence_of(json).find(", the tracker tolerates noise up to 0.039 (by the set \"assumed\" of the "
-                               "certificate), and without noise") != std::string::npos);
+                               "certificate): a certified invariant set exists in which") !=
+        std::string::npos);
   CHECK(sentence_of(with_two_noises(0.04)).find("by the set") == std::string::npos);
   // Above every verified set.
   Json above = json;
@@ -272,6 +282,7 @@ TEST_CASE("limits are those of all verified sets, and the sentence names the set
   // Errors that only the set for some noise contains.
   Json reach = json;
   reach["claims"][0]["reach"] = "0.002";
+  reach["claims"][0]["reach_frequency_error"] = "0.01";
   reach["tubes"].erase(0);
   CHECK(sentence_of(reach).find("frequency errors up to 0.002 rad/sample at every phase.") !=
         std::string::npos);
@@ -279,7 +290,7 @@ TEST_CASE("limits are those of all verified sets, and the sentence names the set
   CHECK(sentence_of(reach).empty());
   // No set is for a frequency that moves.
   Json slew = json;
-  slew["claims"][0] = test::told_claim("model/slew-limit", {{"slew", "1e-9"}});
+  slew["claims"][0] = test::told_claim("model/slew-limit", {{"slew", "1e-9"}, {"frequency_error", "0.01"}});
   CHECK(sentence_of(slew).empty());
 }
 
@@ -353,7 +364,10 @@ Json varying_certificate() {
   json["tubes"] = {test::ProposedModel::set("starts", 0.0, cells),
                    test::ProposedModel::set("noise", 0.02, cells)};
   json["claims"] = {test::told_claim("model/guarantee", {{"frequency_error", "0.007"}}),
-                    test::told_claim("model/limits", {{"noise", "0.0195"}, {"reach", "0.001"}})};
+                    test::told_claim("model/limits", {{"noise", "0.0195"},
+                                                      {"frequency_error", "0.007"},
+                                                      {"reach", "0.001"},
+                                                      {"reach_frequency_error", "0.007"}})};
   return json;
 }
 
@@ -434,7 +448,7 @@ TEST_CASE("requirements follow from the sets, or not") {
   const auto with = [](const std::string& key, const Json& number, const std::string& id) {
     Json json = test::loop_certificate();
     json["design"]["require"][key] = number;
-    json["claims"] = Json::array({test::told_claim(id, Json::object(), true)});
+    json["claims"] = Json::array({test::told_claim(id, error_of(id), true)});
     json["verdict"] = "proved";
     return json;
   };
@@ -454,12 +468,12 @@ TEST_CASE("requirements follow from the sets, or not") {
         "the frequency error stays below 0.015625 rad/sample for ever.");
   check("largest_noise_at_least", "model/largest-noise", decimal("0.03125", 0.03125, 0.03125),
         decimal("0.0625", 0.0625, 0.0625),
-        "the tracker tolerates noise up to 0.03125: a certified invariant set exists.");
+        "the tracker tolerates noise up to 0.03125: a certified invariant set exists in which the frequency "
+        "error stays at or below 0.014 rad/sample.");
   check("frequency_error_radius_at_least", "model/frequency-error-radius",
         decimal("0.0078125", 0.0078125, 0.0078125), decimal("0.015625", 0.015625, 0.015625),
-        "without noise, a certified invariant set contains frequency errors up to 0.0078125 rad/sample at "
-        "every "
-        "phase.");
+        "without noise, a certified invariant set in which the frequency error stays at or below 0.014 "
+        "rad/sample contains frequency errors up to 0.0078125 rad/sample at every phase.");
   check(
       "bias_below", "model/bias", decimal("0.00048828125", 0x1p-11, 0x1p-11), decimal("1e-6", 1e-6, 1e-6),
       "the mean over the phase of the frequency error in the long run is at most 0.00048828125 rad/sample in "
@@ -490,6 +504,64 @@ TEST_CASE("settling in time") {
   Json alone = with("5283", 5283.0, 0x1p-9, "0.001953125");
   alone["design"]["require"].erase("settled_below");
   CHECK_FALSE(verify_json(alone).verified());
+}
+
+TEST_CASE("what is said of lock names an error, which the whole set keeps and which excludes other locks") {
+  const auto limits = [](const char* error, const char* of_reach) {
+    return [=](Json& json) {
+      json["claims"][1]["frequency_error"] = error;
+      json["claims"][1]["reach_frequency_error"] = of_reach;
+    };
+  };
+  CHECK_FALSE(refuses(limits("0.01", "0.014")));
+  CHECK(refuses(limits("0.002", "0.014")));
+  CHECK(refuses(limits("0.01", "0.0096")));
+  // One channel does not tell 0.28125 from -0.28125 rad/sample.
+  CHECK_FALSE(refuses(limits("0.28", "0.28")));
+  CHECK(refuses(limits("0.28126", "0.014")));
+  CHECK(refuses(limits("0.01", "0.28126")));
+  CHECK(refuses([](Json& json) { json["claims"][1].erase("frequency_error"); }));
+  CHECK(refuses([](Json& json) { json["claims"][1].erase("reach_frequency_error"); }));
+  // A frequency that is not defined in all of the set.
+  CHECK(refuses([](Json& json) {
+    json["design"]["model"]["frequency"] = "w + 0*sqrt(w - 0.295)";
+    json["claims"].erase(0);
+    json["claims"].erase(1);
+  }));
+}
+
+TEST_CASE(
+    "a line that nothing needs is an objection, a limit is shown wherever it stands, and x^0 is refused") {
+  const auto with_line = [](const std::string& line) {
+    Json json = test::loop_certificate();
+    json["design"]["model"]["step"] = json["design"]["model"]["step"].get<std::string>() + line;
+    return json;
+  };
+  CHECK(objections_to(verify_json(with_line("\nu = log(-1 - w)\n")), "design") ==
+        "nothing needs the line u\n");
+  CHECK(objections_to(verify_json(with_line("\nu = w\nv = u\n")), "design") == "nothing needs the line v\n");
+  CHECK(objections_to(verify_json(with_line("\ngone' = w\n")), "design") == "nothing needs the line gone'\n");
+  CHECK(verify_json(with_line("\nguard = stays_within(w, 0.2, 0.4)\n")).verified());
+  CHECK(verify_json(with_line("\ndouble = 2*w\nguard = stays_within(double, 0.4, 0.8)\n")).verified());
+  for (const char* limit :
+       {"stays_within(w, 0.8, 0.81)", "stays_within(w, 0.31, 0.4)", "stays_within(w, 0.4, 0.2)",
+        "stays_within(1/(w - w), 0, 1)", "stays_within(theta - theta, -1, 1)"}) {
+    CAPTURE(limit);
+    const Verification found = verify_json(with_line(std::string("\nguard = ") + limit + "\n"));
+    CHECK_FALSE(found.verified());
+    CHECK(objections_to(found, "design").empty());
+  }
+  CHECK_THROWS_AS(verify_json(with_line("\nguard = stays_within(w, 0.8, 0.81)^0\n")), Malformed);
+  CHECK_THROWS_AS(verify_json(with_line("\nguard = (1/(w - w))^0\n")), Malformed);
+  // Used, and a factor of 0.
+  for (const char* term : {"0*stays_within(w, 0.8, 0.81)", "0*log(-1 - w)", "0*(1/(w - w))"}) {
+    CAPTURE(term);
+    Json json = test::loop_certificate();
+    std::string step = json["design"]["model"]["step"];
+    step.replace(step.find("w + ki*e"), 8, std::string("w + ki*e + ") + term);
+    json["design"]["model"]["step"] = step;
+    CHECK_FALSE(verify_json(json).verified());
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/model/formula.hpp"
+#include "checker/model/rounding.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::checker {
@@ -102,6 +103,24 @@ TEST_CASE("powers, products and sums") {
       REQUIRE_FALSE(certainly_less(exact, range.lower()));
     }
   }
+}
+
+TEST_CASE("factors that are wrong by roundings") {
+  // All of one sign, so that roundings add up.
+  PlacePolynomial function;
+  function.coefficients.fill(0.7);
+  const double factor = 1.0 / 3.0;
+  const Ball wrong = Ball(factor) * (one + Ball(static_cast<double>(kRoundingsOfFactor)) * Ball(kRounding));
+  const BallPolynomial sum = linear_combination({factor, factor}, {function, function});
+  // At s = z = 1.
+  Ball exact;
+  Ball value;
+  for (std::size_t k = 0; k < function.coefficients.size(); ++k) {
+    exact += two * wrong * Ball(function.coefficients[k]);
+    value += Ball(sum.block(0, 0)[k]);
+  }
+  CHECK_FALSE(certainly_less(Ball(sum.error()), abs(value - exact)));
+  CHECK(sum.error() < 1e-13);
 }
 
 TEST_CASE("what is not a number stays so") {

@@ -160,7 +160,10 @@ inline const Json& loop_certificate() {
         ProposedModel::set("noise", 0.04, Json::array({ProposedModel::cell(noise, {0.0045}, {1.0})}))};
     json["claims"] = {
         told_claim("model/guarantee", {{"frequency_error", "0.014"}, {"settled_frequency_error", "0.0012"}}),
-        told_claim("model/limits", {{"noise", "0.039"}, {"reach", "0.0095"}}),
+        told_claim("model/limits", {{"noise", "0.039"},
+                                    {"frequency_error", "0.01"},
+                                    {"reach", "0.0095"},
+                                    {"reach_frequency_error", "0.014"}}),
         told_claim("model/steady-state",
                    {{"bias_low", "-0.0001"}, {"bias_high", "0.0001"}, {"ripple", "0.0023"}})};
     return json;

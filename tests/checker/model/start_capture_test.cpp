@@ -42,8 +42,8 @@ TEST_CASE("a start from rest is verified, in these words") {
   REQUIRE(found.sentences.size() == 3);
   CHECK(
       found.sentences[2].text.ends_with(" at any phase of the signal, the tracker is in the set \"assumed\" "
-                                        "of the certificate after at most 60 "
-                                        "samples."));
+                                        "of the certificate after at most 60 samples, and there the "
+                                        "frequency error stays at or below 0.01844 rad/sample."));
   CHECK(
       found.sentences[1].text ==
       "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.31, 0.315] "

@@ -10,6 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "checker/numbers/budget.hpp"
+
 namespace veritrack::checker {
 namespace {
 
@@ -71,6 +73,15 @@ TEST_CASE("what fails at a point fails, whatever is halved") {
   }
   CHECK_FALSE(certain_everywhere(
       {}, [](std::size_t, const TubePart&, const std::vector<std::size_t>&) { return PartAnswer{}; }, cells));
+}
+
+TEST_CASE("a first grid that is larger than the budget ends the work, and takes no memory before") {
+  std::int64_t cells = 0;
+  const auto ask = [](std::size_t, const TubePart&, const std::vector<std::size_t>&) { return PartAnswer{}; };
+  constexpr std::size_t kMany = std::size_t{1} << 40U;  // a part of it each would take terabytes
+  set_budget(100'000);
+  CHECK_THROWS_AS((void)certain_everywhere({{kMany, 65'536, 1}}, ask, cells), OutOfBudget);
+  set_budget(kDefaultBudget);
 }
 
 }  // namespace

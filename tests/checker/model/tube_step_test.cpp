@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,34 @@ std::vector<double> random_direction(test::Random& random, std::size_t size) {
   return direction;
 }
 
+/// The polynomial at a point, from its coefficients: by Horner's scheme nowhere, so that nothing is shared.
+Ball polynomial_at(const BallPolynomial& x, const VectorMonomials& monomials, double s, double z,
+                   const std::vector<double>& vectors) {
+  const auto block_value = [&](int degree, std::size_t number) {
+    Ball sum;
+    std::size_t at = 0;
+    const auto block = x.block(degree, number);
+    for (int d = 0; at < block.size(); ++d) {
+      for (int m = 0; m <= d; ++m) {
+        sum += Ball(block[at++]) * whole_power(Ball(s), d - m) * whole_power(Ball(z), m);
+      }
+    }
+    return sum;
+  };
+  Ball value = block_value(0, 0);
+  for (std::size_t a = 0; a < vectors.size(); ++a) {
+    value += block_value(1, a) * Ball(vectors[a]);
+    for (std::size_t b = a; b < vectors.size(); ++b) {
+      value += block_value(2, monomials.pair(a, b)) * Ball(vectors[a]) * Ball(vectors[b]);
+      for (std::size_t c = b; c < vectors.size(); ++c) {
+        value += block_value(3, monomials.triple(a, monomials.pair(b, c))) * Ball(vectors[a]) *
+                 Ball(vectors[b]) * Ball(vectors[c]);
+      }
+    }
+  }
+  return value;
+}
+
 void check_step(const Tracked& tracked, double radius, double noise, double slew, std::size_t parts,
                 std::int64_t trials) {
   test::Random random(92);
@@ -147,19 +176,6 @@ void check_step(const Tracked& tracked, double radius, double noise, double slew
       Ball square_of_length;
       for (std::size_t k = 0; k < n; ++k) {
         REQUIRE(map[k].known());
-        // The polynomial at the point: by Horner's scheme nowhere, so that nothing is shared.
-        Ball value;
-        const auto block_value = [&](int degree, std::size_t number) {
-          Ball sum;
-          std::size_t at = 0;
-          const auto block = map[k].block(degree, number);
-          for (int d = 0; at < block.size(); ++d) {
-            for (int m = 0; m <= d; ++m) {
-              sum += Ball(block[at++]) * whole_power(Ball(s), d - m) * whole_power(Ball(z), m);
-            }
-          }
-          return sum;
-        };
         std::vector<double> both = x;
         if (noise > 0.0) {
           both.insert(both.end(), v.begin(), v.end());
@@ -167,17 +183,7 @@ void check_step(const Tracked& tracked, double radius, double noise, double slew
         if (slew > 0.0) {
           both.push_back(zeta);
         }
-        value = block_value(0, 0);
-        for (std::size_t a = 0; a < both.size(); ++a) {
-          value += block_value(1, a) * Ball(both[a]);
-          for (std::size_t b = a; b < both.size(); ++b) {
-            value += block_value(2, monomials.pair(a, b)) * Ball(both[a]) * Ball(both[b]);
-            for (std::size_t c = b; c < both.size(); ++c) {
-              value += block_value(3, monomials.triple(a, monomials.pair(b, c))) * Ball(both[a]) *
-                       Ball(both[b]) * Ball(both[c]);
-            }
-          }
-        }
+        const Ball value = polynomial_at(map[k], monomials, s, z, both);
         REQUIRE_FALSE(certainly_less(Ball(map[k].error()), abs(value - exact[k])));
         square_of_length += square(exact[k]);
       }
@@ -285,6 +291,41 @@ TEST_CASE("two channels, with an arctangent") {
   tube.shape = {{{1.0}, {0.1}}, {{0.01, 0.002}}, {{0.02}}, {{-0.3}}, {}, {{0.9}}};
   const Tracked loop("gnss-pll.toml", tube);
   check_step(loop, 0.001, 0.03, 1e-4, 32, test::effort(10));
+}
+
+TEST_CASE("a curve of many powers where the frequency moves") {
+  test::Random random(94);
+  const VectorMonomials monomials(1, 0, 1);
+  for (std::int64_t trial = 0; trial < test::effort(20); ++trial) {
+    PhaseTube tube;
+    tube.frequency = 0.3;
+    tube.half_width = 0.01;
+    tube.turns = {0};
+    tube.curve.resize(1);
+    tube.shape = {{{1.0}}};
+    for (std::size_t h = 0; h < 3; ++h) {
+      tube.curve[0].emplace_back();
+      for (std::size_t d = 0; d < kMostPowers; ++d) {
+        tube.curve[0].back().emplace_back(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+      }
+    }
+    const TubePart part = TubePart::of_grid(random.below(1024), 1024, random.below(256), 256);
+    const double most = 1e-3;
+    const FrequencyMove move{Ball(most), BallPolynomial::variable(monomials, monomials.first(2))};
+    const BallPolynomial curve = TubeOver(tube, part, 0, &move).curve[0];
+    REQUIRE(curve.known());
+    for (int i = 0; i < 10; ++i) {
+      const double s = random.uniform(-1.0, 1.0);
+      const double z = random.uniform(-1.0, 1.0);
+      const double zeta = random.below(2) == 0 ? 1.0 : random.uniform(-1.0, 1.0);
+      const Ball phase = two * pi() * (Ball(part.turn) + Ball(part.half_turn) * Ball(s));
+      const Ball place = Ball(part.z) + Ball(part.half_z) * Ball(z) + Ball(most) * Ball(zeta);
+      const Ball value = polynomial_at(curve, monomials, s, z, {0.0, zeta});
+      REQUIRE_FALSE(certainly_less(Ball(curve.error()), abs(value - sum_at(tube.curve[0], phase, place))));
+    }
+    tube.curve[0][0].resize(kMostPowers + 1);
+    CHECK_THROWS_AS(TubeOver(tube, part, 0, &move), std::invalid_argument);
+  }
 }
 
 TEST_CASE("a shape that may vanish is none") {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
 using namespace veritrack::checker;
@@ -40,6 +41,7 @@ Claim claim_under(double noise, double slew, Verdict verdict, Objections& object
   captured.slew = Ball(slew);
   captured.verdict = verdict;
   captured.covariance = "and with P(0|0) = M";
+  captured.set_error = Ball(3.0);
   return checked("ekf/capture-at-reduced-noise", {{"capture/reduced-noise", captured}}, objections);
 }
 
@@ -56,7 +58,7 @@ TEST_CASE("starts are captured under the noise and slew that they were followed 
           "most 0.125 rad/sample per sample, with measurement noise of at most 0.25 of the amplitude (the "
           "length of the error in both channels), started within 0.5 rad/sample of the true frequency, 0.25 "
           "rad of the phase and 0.25 of the amplitude and with P(0|0) = M, the tracker enters the certified "
-          "set, which it never leaves.");
+          "set, in which the frequency error stays below 3.14 rad/sample, and never leaves it.");
   claim_under(0.25, 0.125, Verdict::undecided, objections);
   CHECK_FALSE(objections.empty());
 }
@@ -64,6 +66,7 @@ TEST_CASE("starts are captured under the noise and slew that they were followed 
 TEST_CASE("the sentence names the noise and slew under which starts are captured") {
   Captured captured;
   captured.verdict = Verdict::proved;
+  captured.set_error = Ball(3.0);
   Objections objections;
   const std::string assumed = checked("ekf/capture", {{"capture", captured}}, objections).statement;
   CHECK(assumed.find(
@@ -74,6 +77,17 @@ TEST_CASE("the sentence names the noise and slew under which starts are captured
       checked("ekf/capture-noise-free", {{"capture/noise-free", captured}}, objections).statement;
   CHECK(none.find(" and is constant, without measurement noise, started") != std::string::npos);
   CHECK(objections.empty());
+}
+
+TEST_CASE("what is captured by a set that reaches another lock is not said to be") {
+  for (const std::optional<Ball>& error : {std::optional<Ball>(Ball(3.14)), std::optional<Ball>()}) {
+    Captured captured;
+    captured.verdict = Verdict::proved;
+    captured.set_error = error;
+    Objections objections;
+    checked("ekf/capture", {{"capture", captured}}, objections);
+    CHECK_FALSE(objections.empty());
+  }
 }
 
 TEST_CASE("without the derivation nothing is captured") {

@@ -141,3 +141,17 @@ TEST_CASE("a witness turns a whole number of times") {
   CHECK(certainly_equal(turns("-0x1p+1"), Ball(-2.0)));
   CHECK_THROWS_AS(turns("0x1p-1"), checker::Malformed);
 }
+
+TEST_CASE("a list that needs hundreds of cuts is not followed") {
+  // The part from 0 to each 2^-k lies between 0 and the one before.
+  const auto slices = [](int count) {
+    std::vector<StartBox> boxes;
+    double high = 1.0;
+    for (int k = 0; k < count; ++k, high *= 0.5) {
+      boxes.push_back(box({k + 1 == count ? 0.0 : 0.5 * high, 0.0, 0.0}, {high, 1.0, 1.0}));
+    }
+    return boxes;
+  };
+  CHECK(covers(kRegion, slices(150)));
+  CHECK_FALSE(covers(kRegion, slices(250)));
+}

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <utility>
 
 using namespace veritrack::checker;
 
@@ -63,7 +64,64 @@ Promises bound(double value) {
   return promises;
 }
 
+/// Of sets in which the frequency error stays below that, rad/sample.
+Promises in_lock(double error = 3.0) {
+  Promises promises;
+  promises.noise_error = promises.slew_error = promises.reach_error = promises.lock_reach = Ball(error);
+  return promises;
+}
+
 }  // namespace
+
+TEST_CASE("a sentence about lock names the lock, or is not verified") {
+  const auto require = [](const char* key) {
+    return design(std::string(R"({")") + key + R"(": )" + exactly("0.125", "0x1p-3") + "}");
+  };
+  const auto is_proved_at = [&](double error) {
+    Promises promises = in_lock(error);
+    promises.noise = promises.slew = promises.reach = Ball(0.25);
+    const std::string limits = R"({"largest_noise": {"lo": "0x1p-3"}, "largest_slew": {"lo": "0x1p-3"}})";
+    const std::string set = R"({"frequency_error_radius": {"lo": "0x1p-3"}})";
+    int proved = 0;
+    proved += is_verified("ekf/limits", "proved", design("{}"), promises, limits) ? 1 : 0;
+    proved += is_verified("ekf/invariant-set", "proved", design("{}"), promises, set) ? 1 : 0;
+    for (const auto& [id, key] : {std::pair("ekf/largest-noise", "largest_noise_at_least"),
+                                  {"ekf/largest-slew", "largest_slew_at_least"},
+                                  {"ekf/frequency-error-radius", "frequency_error_radius_at_least"}}) {
+      proved += is_verified(id, "proved", require(key), promises) ? 1 : 0;
+    }
+    return proved;
+  };
+  CHECK(is_proved_at(3.139) == 5);
+  CHECK(is_proved_at(3.14) == 0);
+  CHECK(is_proved_at(6.5) == 0);
+  Promises unknown;
+  unknown.noise = unknown.slew = unknown.reach = Ball(0.25);
+  CHECK(!is_verified("ekf/largest-noise", "proved", require("largest_noise_at_least"), unknown));
+  // Without a limit that is asked for, the lock is kept only with a number that says which.
+  const auto keeps = [](double found, const std::string& evidence) {
+    return is_verified("ekf/guarantee", "proved", design("{}"), bound(found), "{" + evidence + "}");
+  };
+  CHECK(keeps(0.7, at_most("frequency_error_bound", "0x1.8p-1")));
+  CHECK_FALSE(keeps(0.7, ""));
+  CHECK_FALSE(keeps(0.7, at_most("frequency_error_bound", "0x1.ap+1")));
+  CHECK_FALSE(keeps(3.2, at_most("frequency_error_bound", "0x1.ap+1")));
+}
+
+TEST_CASE("one channel shows a tone as one of the mirrored frequency, too") {
+  // The band is [0.25, 3]: pi less it begins at 0.1415.
+  const auto is_proved_at = [](double error) {
+    Promises promises = in_lock(error);
+    promises.noise = Ball(0.25);
+    const std::string tables = design(R"({"largest_noise_at_least": )" + exactly("0.125", "0x1p-3") + "}");
+    const Answer found =
+        answer("ekf/largest-noise", "proved", tables, promises, "{}", {true, false, kExactArithmetic});
+    CHECK(found.says("the frequency error stays below 0.141 rad/sample"));
+    return found.objections.empty();
+  };
+  CHECK(is_proved_at(0.1405));
+  CHECK_FALSE(is_proved_at(0.1412));
+}
 
 TEST_CASE("the frequency error stays below what is asked") {
   const std::string tables = design(below);
@@ -153,7 +211,7 @@ TEST_CASE("settling takes two numbers, and both are met") {
 
 TEST_CASE("sizes of sets: noise is certified relative to the amplitude") {
   const std::string tables = design(R"({"largest_noise_at_least": )" + exactly("0.5", "0x1p-1") + "}");
-  Promises promises;
+  Promises promises = in_lock();
   promises.noise = Ball(0.25);
   CHECK(is_verified("ekf/largest-noise", "proved", tables, promises));
   promises.noise = Ball(0.24);
@@ -165,7 +223,7 @@ TEST_CASE("sizes of sets: slew, and the reach") {
   const std::string slew = design(R"({"largest_slew_at_least": )" + exactly("0.5", "0x1p-1") + "}");
   const std::string reach =
       design(R"({"frequency_error_radius_at_least": )" + exactly("0.5", "0x1p-1") + "}");
-  Promises promises;
+  Promises promises = in_lock();
   promises.slew = promises.reach = Ball(0.5);
   CHECK(is_verified("ekf/largest-slew", "proved", slew, promises));
   CHECK(is_verified("ekf/frequency-error-radius", "proved", reach, promises));
@@ -182,7 +240,7 @@ TEST_CASE("nothing below zero is asked for, and a set of no size is none") {
     const Guarantee guarantee(tables, {}, objections);
     CHECK(objections.size() == 1);
   }
-  Promises promises;
+  Promises promises = in_lock();
   promises.reach = Ball(0.25);
   promises.rate = Ball(0.9);
   CHECK(!is_verified(
@@ -201,16 +259,17 @@ TEST_CASE("a claim on settling is one from a sample on, below an error") {
 }
 
 TEST_CASE("the size of the set and the limits are sentences of their own") {
-  Promises promises;
+  Promises promises = in_lock();
   promises.reach = Ball(0.25);
   promises.rate = Ball(0.9);
   const std::string set =
       R"({"frequency_error_radius": {"lo": "0x1p-2"}, "contraction_rate": {"hi": "0x1.dp-1"}})";
   const Answer found = answer("ekf/invariant-set", "proved", design("{}"), promises, set);
   CHECK(found.objections.empty());
-  CHECK(found.says(
-      "contains frequency errors up to 0.25 rad/sample; in it, each sample multiplies the error by at "
-      "most 0.907"));
+  CHECK(
+      found.says("contains frequency errors up to 0.25 rad/sample and none of 3.14 rad/sample or more; in "
+                 "it, each sample multiplies the error by at "
+                 "most 0.907"));
   promises.reach = Ball(0.24);
   CHECK(!is_verified("ekf/invariant-set", "proved", design("{}"), promises, set));
   const std::string limits = R"({"largest_noise": {"lo": "0x1p-2"}, "largest_slew": {"lo": "0x1p-3"}})";

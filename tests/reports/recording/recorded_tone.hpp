@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reports/recording/samples/sample_source.hpp"
+#include "reports/recording/waveform.hpp"
 #include "trackers/signals/random.hpp"
 
 namespace veritrack::test {
@@ -35,6 +36,11 @@ class MemorySource : public reports::SampleSource {
   int channels_;
   std::size_t next_ = 0;
 };
+
+/// A tone alone, which designs assume unless they say otherwise.
+inline reports::Waveform tone_waveform(int channels) {
+  return {std::vector<certificates::Harmonic>(1), channels};
+}
 
 /// A tone of amplitude 1 with this frequency at each sample, and Gaussian noise in each channel.
 inline std::vector<reports::RecordedSample> recorded_tone(std::size_t samples, int channels, double deviation,

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::certificates::language {
@@ -85,6 +87,41 @@ TEST_CASE("parameters are enclosed, and computed as they are written") {
   CHECK_THROWS_WITH_AS(refused("1e999"), "1e999 is not a number in the range of double precision",
                        LanguageError);
   CHECK_THROWS_WITH_AS(refused("k"), "unknown name k; allowed: numbers", LanguageError);
+}
+
+TEST_CASE("a line that nothing needs is an error, and a limit has to be shown wherever it stands") {
+  CHECK(
+      message("s' = s\nu = log(-1 - s)\nt' = t") ==
+      "2:1: u is unused: delete it, or it is part of what runs; allowed: lines that a next value needs, and "
+      "limits, name = stays_within(...)");
+  CHECK(message("s' = s\nt' = t\nu = s\nv = 2*u").starts_with("4:1: v is unused"));
+  CHECK(message("s' = s\nt' = t\nv = 2*stays_within(s, 0, 1)").starts_with("3:1: v is unused"));
+  const CompiledProgram compiled =
+      step("s' = s\nt' = t\nu = t - k\nguard = stays_within(s, 2, 4)\nother = stays_within(u, -1, k)");
+  REQUIRE(compiled.program.limits().size() == 2);
+  const auto next = [&](double s, double t) {
+    const rigor::UpwardRounding scope;
+    // k, the literals 2, 4 and 1, s, t, y
+    std::vector<rigor::Interval> inputs;
+    for (const double input : {3.0, 2.0, 4.0, 1.0, s, t, 0.0}) {
+      inputs.emplace_back(input);
+    }
+    std::vector<rigor::Interval> registers;
+    std::vector<rigor::Interval> results(2);
+    compiled.program.run(std::span<const rigor::Interval>(inputs), registers, std::span(results));
+    return results[0];
+  };
+  CHECK(next(3.0, 3.5).lower() == 3.0);
+  CHECK(next(3.0, 3.5).upper() == 3.0);
+  CHECK(is_empty(next(1.0, 3.5)));
+  CHECK(is_empty(next(3.0, 7.0)));
+  CHECK(is_empty(next(3.0, 1.5)));
+  // Numbers are as they are.
+  const std::vector<double> inputs{3.0, 2.0, 4.0, 1.0, 9.0, 9.0, 0.0};
+  std::vector<double> registers;
+  std::vector<double> results(2);
+  compiled.program.run(std::span<const double>(inputs), registers, std::span(results));
+  CHECK(results[0] == 9.0);
 }
 
 TEST_CASE("what cannot be understood is told with its place and with what is allowed") {

@@ -71,9 +71,10 @@ TEST_CASE("what is no formula is told with its place") {
   is("a b", "1:3: found \"b\"; allowed: an operator, or the end of the formula");
   is("2e", "1:2: found \"e\"; allowed: an operator, or the end of the formula");
   is("x^2^3", "1:4: found \"^3\"; allowed: an operator, or the end of the formula");
-  is("x^-1", "1:3: found \"-1\"; allowed: a whole exponent, 0 or more (otherwise sqrt, or exp and log)");
-  is("x^99", "1:3: the exponent 99 is too large; allowed: 0 to 16");
-  is("x^99999999999", "1:3: the exponent 99999999999 is too large; allowed: 0 to 16");
+  is("x^-1", "1:3: found \"-1\"; allowed: a whole exponent, 1 or more (otherwise sqrt, or exp and log)");
+  is("x^0", "1:3: the exponent 0 is too small; allowed: 1 to 16");
+  is("x^99", "1:3: the exponent 99 is too large; allowed: 1 to 16");
+  is("x^99999999999", "1:3: the exponent 99999999999 is too large; allowed: 1 to 16");
   is("1/(2", "1:5: the text ends; allowed: an operator or ) (or a comma in a function)");
   is("(a\n  b)", "2:3: found \"b)\"; allowed: an operator or ) (or a comma in a function)");
   is("a = b", "1:3: found \"= b\"; allowed: an operator, or the end of the formula");

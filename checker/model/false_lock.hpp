@@ -1,0 +1,68 @@
+// How near another lock may be: a frequency that the tracker may settle at instead of the true one, as far as
+// its formulas and the signal's tell (docs/model-proof.md, section 18).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "checker/model/tube_step.hpp"
+
+namespace veritrack::checker {
+
+/// The degree of a value as a quotient of polynomials in the states and in sines and cosines of them: how
+/// many parts of a turn of an angle, or changes of the sign of states, it may not see. What sin(x) cos(x) and
+/// I Q do not see of half a turn has the degree 2. Computed with in place of numbers.
+class Repeats {
+ public:
+  Repeats(double value) : Repeats(Ball(value)) {}  // NOLINT(google-explicit-constructor)
+  Repeats(const Ball& value);                      // NOLINT(google-explicit-constructor)
+  /// State number `index` of `count`.
+  static Repeats variable(std::size_t index, std::size_t count);
+
+  /// That of the numerator and of the denominator together.
+  [[nodiscard]] long parts() const;
+  /// The largest whole number, of all states, that is a factor or a divisor of a state here; 0 of a constant.
+  [[nodiscard]] long multiple() const;
+
+  friend Repeats operator+(const Repeats& x, const Repeats& y);
+  friend Repeats operator-(const Repeats& x, const Repeats& y) { return x + y; }
+  friend Repeats operator-(const Repeats& x) { return x; }
+  friend Repeats operator*(const Repeats& x, const Repeats& y);
+  friend Repeats operator/(const Repeats& x, const Repeats& y);
+  friend Repeats sqrt(const Repeats& x) { return x.function(); }
+  friend Repeats exp(const Repeats& x) { return x.function(); }
+  friend Repeats log(const Repeats& x) { return x.function(); }
+  friend Repeats sin(const Repeats& x) { return x.periodic(0); }
+  friend Repeats cos(const Repeats& x) { return x.periodic(0); }
+  friend Repeats tangent(const Repeats& x) { return x.periodic(1); }
+  friend Repeats arcsine(const Repeats& x) { return x.function(); }
+  friend Repeats arccosine(const Repeats& x) { return x.function(); }
+  friend Repeats arctangent(const Repeats& x) { return x.function(); }
+  friend Repeats arctangent2(const Repeats& y, const Repeats& x) { return (y / x).function(); }
+  friend Repeats stays_within(const Repeats& x, const Repeats& /*low*/, const Repeats& /*high*/) { return x; }
+
+ private:
+  [[nodiscard]] bool is_constant() const { return multiples_.empty() && parts() == 0; }
+  /// Of both, entry by entry, added.
+  static std::vector<long> multiples(const Repeats& x, const Repeats& y);
+  /// Some other function than those of period 2 pi: of twice the degree, to be safe with sums.
+  [[nodiscard]] Repeats function() const;
+  /// Of period 2 pi, with the degree of its denominator for each of its numerator.
+  [[nodiscard]] Repeats periodic(long denominator) const;
+
+  std::vector<long> multiples_;  ///< of the states
+  bool is_linear_ = true;        ///< a sum of these multiples
+  long numerator_ = 0, denominator_ = 0;
+  std::optional<long> whole_;  ///< the constant that it is, if that is a whole number
+};
+
+/// Less than the frequency error, rad/sample, from which a state may be nearer to a false lock than to the
+/// true one, for all frequencies from `lowest` to `highest`; 0 where nothing is left. It is half the distance
+/// to the nearest of
+/// - the frequencies 2 pi/M away, M the largest degree of the step, of the frequency and of the signal;
+/// - the frequencies -omega and 2 pi - omega, unless the signal is certain to move on at each phase, so that
+///   it cannot be another one that runs backwards: of one channel it is not;
+/// - the frequencies i/j omega, i and j up to n, where the signal has harmonics up to n.
+Ball half_distance_to_false_lock(const TrackedModel& model, const Ball& lowest, const Ball& highest);
+
+}  // namespace veritrack::checker

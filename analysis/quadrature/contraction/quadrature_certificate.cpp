@@ -275,6 +275,16 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
       return;
     }
     add(find_sufficient_set(harder));
+    if (!is_satisfied()) {
+      // Together with the sets that there are it may be enough.
+      const std::optional<Verification> before =
+          std::exchange(certificate.bound_set, find_set(harder, Objective::frequency_bound));
+      if (!certificate.bound_set || !is_satisfied()) {
+        certificate.bound_set = before;
+      } else if (!certificate.set) {
+        certificate.set = certificate.bound_set;
+      }
+    }
   }
 }
 

@@ -9,10 +9,10 @@ namespace veritrack::checker {
 namespace {
 
 /// More than any lock could be told apart in.
-constexpr long kMost = 1'000'000;
+constexpr long kMostOfATurn = 1'000'000;
 
 long capped(long value) {
-  return std::min(value, kMost);
+  return std::min(value, kMostOfATurn);
 }
 
 /// |Y'| > 0 at all phases: a signal that runs backwards has the same samples only if it turns back somewhere.

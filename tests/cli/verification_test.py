@@ -152,7 +152,7 @@ class Verification(CliTestCase):
         first = self.run_here(*arguments)
         self.assertEqual(first.returncode, 1, first.stderr)
         self.assertEqual([line.split(": ")[1] for line in first.stdout.splitlines()],
-                         ["proved, verified", "undecided", "nothing required, verified"])
+                         ["proved, verified", "undecided", "nothing required, verified", "1 undecided, 1 with nothing required"])
         designs = json.loads((self.folder / "report.json").read_text())["designs"]
         self.assertEqual([design["verified"] for design in designs], [True, True])
         again = self.run_here(*arguments)
@@ -171,10 +171,10 @@ class Verification(CliTestCase):
                      "--sarif", "report.sarif")
         self.assertEqual(result.returncode, 1, result.stderr)
         lines = result.stdout.splitlines()
-        self.assertEqual(len(lines), 3)
+        self.assertEqual(len(lines), 4)
         for line in lines[:2]:
             self.assertRegex(line, rf"^design.toml:[0-9]+: undecided: .* \(not verified: {re.escape(why)}\)$")
-        self.assertEqual(lines[2], "nothing.toml: not verified: " + why)
+        self.assertEqual(lines[2:], ["nothing.toml: not verified: " + why, "2 designs: 2 undecided"])
         designs = json.loads((self.folder / "report.json").read_text())["designs"]
         self.assertEqual([design["verified"] for design in designs], [False, False])
         self.assertEqual((designs[0]["verdict"], designs[1]["error"]["kind"]), ("undecided", "not-verified"))

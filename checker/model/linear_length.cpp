@@ -118,7 +118,7 @@ std::vector<double> LinearLength::factors(const Shares& shares, double scale) co
 /// Where the largest eigenvalue is about the least, in the middle of the part: a proposal.
 LinearLength::Shares LinearLength::proposed_shares(double scale) const {
   constexpr int kSections = 16;
-  constexpr int kSectionsInside = 10;
+  constexpr int kSectionsInside = 14;
   constexpr double kLow = -4.0;
   constexpr double kHigh = 12.0;
   const auto eigenvalue = [&](const Shares& shares) {

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "certificates/model/band_part.hpp"
+#include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 
@@ -20,11 +23,14 @@ class ModelWords {
   /// `bounds_covariance`: the sets are those of a filter's estimate, with bounds of its covariance.
   explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt,
                       bool bounds_covariance = false)
-      : assume_(&tables.assume), part_(std::move(part)), bounds_covariance_(bounds_covariance) {}
+      : assume_(&tables.assume),
+        is_tone_(is_pure_tone(tables)),
+        part_(std::move(part)),
+        bounds_covariance_(bounds_covariance) {}
 
   [[nodiscard]] std::string unit() const { return assume_->frequency_in_hertz ? "Hz" : "rad/sample"; }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
-    const std::string signal = assume_->signal.empty() ? "a tone" : "the signal of the design file";
+    const std::string signal = is_tone_ ? "a tone" : "the signal of the design file";
     const auto& [least, largest] = assume_->amplitude;
     if (is_constant_in_range(*assume_)) {
       return fmt::format("{}, on {} of any constant amplitude in [{}, {}] with {}", kExactArithmetic, signal,
@@ -102,7 +108,16 @@ class ModelWords {
            "\" of the certificate, the other states on it";
   }
 
+  /// Written out or not, the tone alone is a tone.
+  static bool is_pure_tone(const ModelTables& tables) {
+    const std::vector<SourceText> signal = signal_of(tables.model, tables.assume.signal);
+    const std::vector<SourceText> tone = signal_of(tables.model, {});
+    return std::equal(signal.begin(), signal.end(), tone.begin(), tone.end(),
+                      [](const SourceText& a, const SourceText& b) { return a.text == b.text; });
+  }
+
   const ModelAssumptions* assume_;
+  bool is_tone_ = false;
   std::optional<BandPart> part_;
   bool bounds_covariance_ = false;
 };

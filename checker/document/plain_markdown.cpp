@@ -136,11 +136,17 @@ class Line {
           : here[0] == '~'                                              ? "a tilde"
           : here.starts_with("![")                                      ? "a picture inside a line"
           : here.starts_with("[^")                                      ? "a footnote"
-          : here.starts_with("]:")                                      ? "the definition of a link"
+          : here.starts_with("]:") && may_be_definition()               ? "the definition of a link"
           : here[0] == ':' && is_short_code()                           ? "an emoji"
                                                                         : "";
       take();
     }
+  }
+
+  /// The definition of a link, which a reader does not see, begins its line, or one before it.
+  [[nodiscard]] bool may_be_definition() const {
+    const std::size_t opening = text_.substr(0, at_).find('[');
+    return opening == std::string_view::npos || text_.find_first_not_of(" >*-+.)0123456789") == opening;
   }
 
   /// ":name:", which some renderers show as a picture.

@@ -33,7 +33,8 @@ TEST_CASE("what the program writes is allowed") {
         "Beside [certificate.md](certificate.md), for it.",
         "p q \\>= b\\_2/b\\_1, a \\| b \\& c, k < 1, < 2 and & so on", "``a `tick` in code``",
         "It is proved; REFUTE it, or PROVE it.", "Proved bounds: at most 0.1",
-        "P(0\\|0) from 0.98 M to 1.01 M", "1. not a verdict", "> a quotation", "x: y: z, at 10:30"}) {
+        "P(0\\|0) from 0.98 M to 1.01 M", "1. not a verdict", "> a quotation", "x: y: z, at 10:30",
+        "for what is under [assume]: a start", "- in [0.1, 0.2]: 3"}) {
     CHECK_MESSAGE(allows(line), std::string(line));
   }
 }
@@ -124,6 +125,8 @@ TEST_CASE("what may show something else than its letters is refused") {
                            "[a]: b",
                            "- [a]: b",
                            "a]: b",
+                           "> [a b]: c",
+                           "  1. [a]: b",
                            "[^1]",
                            "a ![b](c.svg)",
                            "![a](https://b.c/d.svg)",

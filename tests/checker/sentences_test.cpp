@@ -16,10 +16,10 @@
 namespace {
 
 using namespace veritrack;
-using Json = nlohmann::json;
+
 using Texts = std::vector<std::string>;
 
-const std::string kRoot = VERITRACK_SOURCE_DIR "/";
+const std::string kCheckout = VERITRACK_SOURCE_DIR "/";
 
 /// What stands between two marks, one after the other.
 Texts between(const std::string& text, const std::string& open, const std::string& close) {
@@ -39,7 +39,7 @@ struct Row {
 };
 
 std::vector<Row> table() {
-  const std::string document = test::read_file(kRoot + "checker/README.md");
+  const std::string document = test::read_file(kCheckout + "checker/README.md");
   const std::size_t begin = document.find("## What each sentence rests on\n");
   REQUIRE(begin != std::string::npos);
   std::istringstream section(document.substr(begin, document.find("\n## ", begin + 1) - begin));
@@ -64,7 +64,7 @@ std::vector<Row> table() {
 std::set<std::string> known_claims() {
   const Texts kinds{"ekf/", "model/", "dft-block/", "kkl/", "regulator/", "recursion/", "proposition-"};
   std::set<std::string> claims;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot + "checker")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kCheckout + "checker")) {
     if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") {
       continue;
     }
@@ -82,8 +82,9 @@ std::set<std::string> known_claims() {
       }
     }
   }
-  for (const auto& entry : std::filesystem::directory_iterator(kRoot + "tests/certificates/accepted")) {
-    for (const Json& claim : Json::parse(test::read_file(entry.path().string())).at("claims")) {
+  for (const auto& entry : std::filesystem::directory_iterator(kCheckout + "tests/certificates/accepted")) {
+    for (const nlohmann::json& claim :
+         nlohmann::json::parse(test::read_file(entry.path().string())).at("claims")) {
       claims.insert(claim.at("id").get<std::string>());
     }
   }
@@ -116,7 +117,7 @@ TEST_CASE("the theorem of a sentence is in the document, and the check in the fi
     CHECK_MESSAGE(row.hypothesis.size() > 10, row.line);
     const Texts documents = between(row.theorem, "(../docs/", ")");
     REQUIRE_MESSAGE(documents.size() == 1, row.line);
-    const std::string text = test::read_file(kRoot + "docs/" + documents.front());
+    const std::string text = test::read_file(kCheckout + "docs/" + documents.front());
     for (const std::string& number : between(row.theorem + " ", "section ", " ")) {
       CHECK_MESSAGE(text.find("\n## " + number + ".") != std::string::npos, row.line);
     }
@@ -124,7 +125,7 @@ TEST_CASE("the theorem of a sentence is in the document, and the check in the fi
     REQUIRE_MESSAGE((!places.empty() && places.size() % 2 == 0), row.line);
     for (std::size_t i = 0; i < places.size(); i += 2) {
       CHECK_MESSAGE(
-          test::read_file(kRoot + "checker/" + places[i + 1]).find(places[i] + "(") != std::string::npos,
+          test::read_file(kCheckout + "checker/" + places[i + 1]).find(places[i] + "(") != std::string::npos,
           places[i] << " is not in " << places[i + 1]);
     }
   }
@@ -135,8 +136,8 @@ TEST_CASE("each hypothesis is false in a forgery that is refused for it") {
     const Texts names = between(row.broken, "`", "`");
     REQUIRE_MESSAGE(!names.empty(), row.line);
     for (const std::string& name : names) {
-      const Json forgery =
-          Json::parse(test::read_file(kRoot + "tests/certificates/rejected/" + name + ".json"));
+      const nlohmann::json forgery =
+          nlohmann::json::parse(test::read_file(kCheckout + "tests/certificates/rejected/" + name + ".json"));
       const std::size_t words = row.broken.find("`" + name + "`: \"") + name.size() + 5;
       const std::string said = row.broken.substr(words, row.broken.find("\"; `", words) - words);
       const std::string objection = said.ends_with('"') ? said.substr(0, said.size() - 1) : said;

@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 
 constexpr double kPi = 3.14159265358979323846;
 
-Json loop_with(const std::string& step, const std::string& frequency = "w") {
+Json loop_of(const std::string& step, const std::string& frequency = "w") {
   return {{"samples", {"y1", "y2"}},
           {"parameters", Json::array({{{"name", "k"}, {"formula", "0.1"}}})},
           {"angles", {"theta"}},
@@ -38,7 +38,7 @@ double half_distance(const Json& model, double lowest = 0.25, double highest = 0
 
 /// pi over half the distance: the largest degree.
 double degree(const std::string& w, const std::string& frequency = "w") {
-  return kPi / half_distance(loop_with("theta' = theta + w\nw' = " + w, frequency));
+  return kPi / half_distance(loop_of("theta' = theta + w\nw' = " + w, frequency));
 }
 
 TEST_CASE("a detector that does not see half a turn has a false lock at half the distance, and so on") {
@@ -95,7 +95,7 @@ TEST_CASE("each partial turn that a step does not see is counted") {
 }
 
 TEST_CASE("one channel does not tell a frequency from its image, and harmonics count") {
-  Json loop = loop_with("theta' = theta + w\nw' = w + k*y1*sin(theta + w)");
+  Json loop = loop_of("theta' = theta + w\nw' = w + k*y1*sin(theta + w)");
   CHECK(std::abs(half_distance(loop) - kPi) < 1e-9);
   // Two channels that say the same are one.
   loop["signal"] = {"A*cos(phi)", "2*A*cos(phi)"};

@@ -46,7 +46,7 @@ TEST_CASE("one channel does not tell a frequency from its image, two do") {
   two.signal = test::tone(2, true);
   const double found = half_distance(two);
   CHECK(found == doctest::Approx(kPi / 5.0).epsilon(1e-12));  // the quotient in atan2, its sum and its roots
-  CHECK(found < kPi / 5.0);
+  CHECK(found < std::numbers::pi_v<long double> / 5.0L);
   CHECK(half_distance(two, 0.0, 3.1415) == found);
   // Two channels that say the same are one.
   two.signal = test::tone(2);

@@ -147,7 +147,8 @@ TEST_CASE("a claim says what is proved of the start, with all that it rests on")
   const Claim in_time = required({true, "", 40, INFINITY, 16, 2});
   CHECK(in_time.verdict == rigor::Verdict::proved);
   CHECK(in_time.required);
-  CHECK(in_time.statement == start + ".");
+  CHECK(in_time.statement ==
+        start + ", and there the frequency error stays at or below 0.007813 rad/sample (1.25 Hz).");
   CHECK(required({true, "", 41, INFINITY, 16, 2}).verdict == rigor::Verdict::undecided);
   CHECK(required({true, "", 40, INFINITY, 16, 2}, false).verdict == rigor::Verdict::undecided);
   const Claim open = required({false, "it is too far", 0, INFINITY, 16, 2});

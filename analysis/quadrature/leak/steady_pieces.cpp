@@ -172,7 +172,7 @@ class PieceSearch {
 /// Cells at frequencies beyond the hard end of the band: at multiples of a step, whatever the band is.
 Cells beyond(const sets::ContractionQuestion& question, const Interval& band) {
   constexpr double kStep = 0.25;  // rad/sample
-  constexpr int kMost = 1;  // each costs a search, in every certificate with a leak
+  constexpr int kMost = 1;        // each costs a search, in every certificate with a leak
   constexpr double kNyquist = 3.14;
   const bool is_upper = std::fabs(band.upper()) >= std::fabs(band.lower());
   const double sign = is_upper ? 1.0 : -1.0;

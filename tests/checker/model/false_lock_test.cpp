@@ -128,7 +128,7 @@ TEST_CASE("of a filter its model is counted") {
   two["samples"] = {"y", "z"};
   two["signal"] = {"A*cos(phi)", "A*sin(phi)"};
   two["ekf"]["measure"] = {"x", "v"};
-  two["ekf"]["R"] = {{"1", "0"}, {"0", "1"}};
+  two["ekf"]["R"] = Json::array({Json::array({"1", "0"}), Json::array({"0", "1"})});
   CHECK(std::abs(half_distance(two) - kPi / 2.0) < 1e-9);
 }
 

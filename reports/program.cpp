@@ -77,11 +77,13 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) {
     pointers.push_back(word.data());
   }
   pointers.push_back(nullptr);
   std::vector<int> files;
+  files.reserve(handed_over.size());
   for (const MemoryFile* file : handed_over) {
     files.push_back(file->descriptor());
   }

@@ -157,7 +157,8 @@ std::vector<std::string> Tree::unread(std::size_t most) const {
   std::vector<std::string> paths;
   const auto add = [&](const Tree& value, const std::string& name) {
     for (const std::string& rest : value.unread(most - paths.size())) {
-      paths.push_back(name + (rest.empty() || rest.starts_with('[') ? "" : ".") + rest);
+      std::string& path = paths.emplace_back(name);
+      path.append(rest.empty() || rest.starts_with('[') ? "" : ".").append(rest);
     }
   };
   for (auto member = members_.begin(); member != members_.end() && paths.size() < most; ++member) {

@@ -112,7 +112,7 @@ class Elsewhere {
       return open_fence(line);
     }
     if (line.starts_with('#')) {
-      if (const Refused refused = open_section(line)) {
+      if (Refused refused = open_section(line)) {
         return refused;
       }
     }

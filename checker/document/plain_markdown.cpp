@@ -241,8 +241,8 @@ std::optional<std::string> PlainMarkdown::objection_to_seen() {
       }
     }
   }
-  constexpr std::size_t kLongest = 7;
-  seen_.erase(0, seen_.size() - std::min(seen_.size(), kLongest - 1));
+  constexpr std::size_t kLongestWord = 7;
+  seen_.erase(0, seen_.size() - std::min(seen_.size(), kLongestWord - 1));
   return std::nullopt;
 }
 

@@ -105,7 +105,7 @@ std::string shown_values(const ContractValue& before, const ContractValue& after
     if (value.json == nullptr) {
       return std::string("not given");
     }
-    const std::string written =
+    std::string written =
         certificates::printable(shown(*value.json, value.in_hertz, measure == Measure::slew), kLongest);
     if (!in_two_units) {
       return written;

@@ -41,6 +41,7 @@ bool is_biased(const TrackResult& result) {
 /// "DC offset, harmonics": what is wrong with the signal.
 std::string names_of(const std::vector<Finding>& findings) {
   std::vector<std::string> names;
+  names.reserve(findings.size());
   for (const Finding& each : findings) {
     names.push_back(each.name);
   }

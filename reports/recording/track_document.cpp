@@ -38,8 +38,7 @@ std::string recording_section(const TrackResult& result) {
   }
   return text + markdown::table({"", "samples", "what is seen", "remedy"}, rows) +
          "\nAmplitudes are in the units of the recording, numbers for the design file in those of the "
-         "design. In white "
-         "noise, each test errs in fewer than one of a million blocks.\n\n";
+         "design. In white noise, each test of a fitted tone errs in fewer than one of a million blocks.\n\n";
 }
 
 std::string nis_section(const TrackReport& report) {

@@ -148,6 +148,14 @@ TEST_CASE("the sentences with verdicts are the first thing that is seen") {
   }
 }
 
+TEST_CASE("where no sentence is verified the document may begin with words of its own") {
+  const Verification nothing;
+  Objections objections;
+  compare_with_markdown(nothing, "abc", headline(nothing) + "\n\nNothing was proved.\n\nSHA-256 `abc`\n",
+                        objections);
+  CHECK(objections.empty());
+}
+
 TEST_CASE("what is quoted ends where its quotation does") {
   Verification verified = verified_document();
   verified.quoted = {"Пример, *PROVED*", "Präly <b>"};

@@ -17,7 +17,7 @@ namespace veritrack::model {
 template <typename Test>
 [[nodiscard]] double largest_radius(double level, const Test& may_hold) {
   double radius = 0.0;
-  for (double guess = 1.6 * level; guess > 0.02 * level && radius == 0.0; guess *= 0.8) {
+  for (double guess = 1.6 * level; guess > 1e-4 * level && radius == 0.0; guess *= 0.8) {
     radius = may_hold(guess) ? guess : 0.0;
   }
   for (double step = 1.12; step > 1.01 && radius > 0.0; step = std::sqrt(step)) {

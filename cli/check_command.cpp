@@ -192,8 +192,16 @@ ExitStatus run_check(const CheckOptions& options) {
     std::for_each(failures.begin(), failures.end(), print_checked);
     return finish(options, 0, failures);
   }
-  const std::optional<Verifier> verifier =
-      options.verify ? std::optional<Verifier>(std::in_place) : std::nullopt;
+  std::optional<Verifier> verifier;
+  try {
+    if (options.verify) {
+      verifier.emplace();
+    }
+  } catch (const NoVerifier& error) {
+    std::vector<CheckedDesign> failures{bad_task("veritrack-verify", error.what()).checked.value()};
+    print_checked(failures.front());
+    return finish(options, 0, failures);
+  }
   std::optional<reports::CheckCache> cache;
   const fs::path cache_folder = options.no_cache ? fs::path() : reports::default_cache_folder();
   if (const std::string program = cache_folder.empty() ? "" : reports::program_identity(); !program.empty()) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "analysis/rigor/versions.hpp"
 #include "certificates/document/markdown_formal_proofs.hpp"
@@ -152,9 +153,20 @@ std::string headline(const Certificate& certificate, const Verification& verific
   return refused + (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
 }
 
+namespace {
+
+/// The file, or the word DESIGN for a name that a shell would take apart or a reader for a verdict.
+std::string design_argument(const std::string& file) {
+  static const std::regex plain("[-A-Za-z0-9._+/]+");
+  static const std::regex verdict("PR[O0]VED|REFUTED", std::regex::icase);
+  return std::regex_match(file, plain) && !std::regex_search(file, verdict) ? file : "DESIGN";
+}
+
+}  // namespace
+
 std::string checking_command(const Certificate& certificate) {
   return fmt::format("veritrack-verify certificate.json --full --design {} --markdown certificate.md{}",
-                     certificate.design_file,
+                     design_argument(certificate.design_file),
                      has_published(certificate) ? " --markdown published-theorems.md" : "");
 }
 

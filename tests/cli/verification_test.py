@@ -83,9 +83,11 @@ class Verification(CliTestCase):
                          "design.toml: will not be verified: veritrack-verify is not beside veritrack; "
                          "`ninja -C build/release veritrack-verify` builds it")
         self.assertEqual(self.document(), (unverified() / "certificate.md").read_text())
-        asked = copy("check", "--verify", "design.toml")
-        self.assertEqual((asked.returncode, asked.stdout), (2, ""))
-        self.assertIn("is not beside veritrack", asked.stderr)
+        asked = copy("check", "--verify", "design.toml", "--junit", "junit.xml", "--sarif", "checked.sarif", "--json", "checked.json")
+        self.assertEqual(asked.returncode, 2)
+        self.assertIn("veritrack-verify is not beside veritrack", asked.stderr)
+        for report in ("junit.xml", "checked.sarif", "checked.json"):
+            self.assertIn("veritrack-verify is not beside veritrack", (self.folder / report).read_text())
 
     def test_a_checker_of_another_release(self):
         self.write(REQUIRED)

@@ -89,6 +89,18 @@ TEST_CASE("the name of a design cannot forge a verdict") {
   CHECK(document.find("x \\# PROVED \\<b\\>everything") != std::string::npos);
 }
 
+TEST_CASE("nor can the name of its file, and a shell can take what is to be typed") {
+  certificates::Certificate certificate = test::certificate();
+  for (const char* name : {"PROVED.toml", "Pr0Ved.toml", "a design.toml", "a$(b).toml", "-\u00e9.toml"}) {
+    certificate.design_file = name;
+    CHECK(certificates::checking_command(certificate).find(" --design DESIGN --markdown") !=
+          std::string::npos);
+  }
+  certificate.design_file = "designs/Motor_2.toml";
+  CHECK(certificates::checking_command(certificate).find(" --design designs/Motor_2.toml --markdown") !=
+        std::string::npos);
+}
+
 TEST_CASE("every table is rectangular") {
   for (const auto& certificate :
        {test::certificate(), test::certificate({{"q1 = 0.0023", "q1 = 0"}}),

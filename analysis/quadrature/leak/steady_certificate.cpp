@@ -115,7 +115,7 @@ bool satisfies(const sets::ContractionQuestion& question, const SteadyReport& re
   return bound &&
          (!required.frequency_error || certainly_less(*bound, Interval(*required.frequency_error))) &&
          (!required.samples ||
-          (certainly_less_equal(report.settling(), Interval(*required.samples)) &&
+          (certainly_less_equal(*report.settling(), Interval(*required.samples)) &&
            question.settled_frequency_error &&
            certainly_less_equal(report.ultimate(), Interval(*question.settled_frequency_error))));
 }
@@ -227,8 +227,9 @@ sets::ContractionResult result_of(const Search& search, const std::optional<Stea
   starts.capture_samples = sets::quantities::capture_samples();
   set(*starts.capture_samples, "", report ? report->capture_samples() : std::nullopt, outside);
   set(starts.settling_samples, "k_c + n - j(k_c),\\ s_{j(k_c)} \\ge s(k_c)",
-      said([](const SteadyReport& r) { return r.settling(); }), why);
-  set(starts.settled_frequency_error, "", said([](const SteadyReport& r) { return r.ultimate(); }), why);
+      report ? report->settling() : std::nullopt, outside);
+  set(starts.settled_frequency_error, "",
+      report && report->settling() ? std::optional(report->ultimate()) : std::nullopt, outside);
   set(result.largest_noise, "", above_zero(search.largest_noise), why);
   set(result.largest_slew, "", above_zero(search.largest_slew), why);
   result.bias_frequency = sets::frequency_bias(search.branch);

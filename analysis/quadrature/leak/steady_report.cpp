@@ -78,10 +78,12 @@ std::optional<Interval> SteadyReport::bound() const {
   return worst;
 }
 
-Interval SteadyReport::settling() const {
-  const std::size_t from = start_.reached ? last_level_with(start_.level_when_reached) : 0;
-  const std::size_t steps = set_.levels.size() - 1 - from;
-  return Interval(static_cast<double>(steps) + (start_.reached ? start_.samples : 0));
+std::optional<Interval> SteadyReport::settling() const {
+  if (!start_.reached) {
+    return std::nullopt;
+  }
+  const std::size_t steps = set_.levels.size() - 1 - last_level_with(start_.level_when_reached);
+  return Interval(static_cast<double>(steps) + start_.samples);
 }
 
 Interval SteadyReport::rate() const {

@@ -25,8 +25,8 @@ class SteadyReport {
   [[nodiscard]] rigor::Interval ultimate() const { return bound_at(set_.levels.back(), bias_); }
   /// For ever; nothing when not all assumed starts come into the set.
   [[nodiscard]] std::optional<rigor::Interval> bound() const;
-  /// Samples from the start, or from level 1 when not all of them come into the set, to the last level.
-  [[nodiscard]] rigor::Interval settling() const;
+  /// Samples from the start to the last level; nothing when not all assumed starts come into the set.
+  [[nodiscard]] std::optional<rigor::Interval> settling() const;
   /// The largest share of a level that the next one is.
   [[nodiscard]] rigor::Interval rate() const;
   /// After which the starts are in the set; zero when they begin there.

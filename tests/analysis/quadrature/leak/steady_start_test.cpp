@@ -61,6 +61,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("starts that do not come into the set settle at no sample") {
+  const rigor::UpwardRounding upward;
+  LeakQuestion question;
+  question.tracker.design = {rigor::parse_decimal("0.0023"), rigor::parse_decimal("0.0023"),
+                             rigor::parse_decimal("0.05"), rigor::parse_decimal("0.01")};
+  question.tracker.initial_frequency_error = Interval(2.5);
+  question.tracker.with_samples = false;
+  question.band = Interval::from_bounds(2.95, 3.0);
+  const LeakCertificate certificate = certify_with_leak(question);
+  const auto applies = [&](const char* name) {
+    return theorems::find_quantity(certificate.derivation, name).applies();
+  };
+  REQUIRE(applies("ultimate_frequency_error"));
+  CHECK_FALSE(applies("frequency_error_bound"));
+  CHECK_FALSE(applies("settling_samples"));
+  CHECK_FALSE(applies("settled_frequency_error"));
+}
+
 TEST_CASE("a covariance has a level only when it is between both bounds of that level") {
   const rigor::UpwardRounding upward;
   SteadySet set;

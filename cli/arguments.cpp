@@ -11,8 +11,8 @@
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/help/design_template.hpp"
+#include "cli/reproduce_options.hpp"
 #include "cli/shell_words.hpp"
-#include "reports/reproductions/reproduction.hpp"
 
 namespace veritrack::cli {
 
@@ -20,7 +20,7 @@ namespace {
 
 namespace rigor = veritrack::rigor;
 
-constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
+constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
     {"certify",
      "  veritrack certify my-design.toml\n"
      "  veritrack certify my-design.toml --html --csv --latex\n"
@@ -48,10 +48,6 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
      "  veritrack track my-design.toml scope.csv --columns CH1,CH2\n"
      "  veritrack track my-design.toml tone.wav --scale auto\n"
      "  producer | veritrack track my-design.toml - --each track.csv"},
-    {"reproduce",
-     "  veritrack reproduce bittanti-savaresi-2000\n"
-     "  veritrack reproduce tracking-limits --seeds 10\n"
-     "  veritrack reproduce ledger"},
     {"sweep",
      "  veritrack sweep sweep.toml --jobs 4\n"
      "  veritrack sweep sweep.toml --scheduler tcp://10.0.0.1:8786\n"
@@ -69,13 +65,6 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
 }};
 
 /// --html, and for a document with tables and figures --csv and --latex.
-void add_renderings(CLI::App& command, const std::string& page, veritrack::reports::page::Renderings& into) {
-  command.add_flag("--html", into.html,
-                   "also write " + page + ", one page with everything in it, which fetches nothing");
-  command.add_flag("--csv", into.csv, "also write the data of every figure as CSV, beside it");
-  command.add_flag("--latex", into.latex, "also write the tables of the document for LaTeX");
-}
-
 void add_examples(CLI::App& app) {
   for (const auto& [command, examples] : kExamples) {
     app.get_subcommand(command)->footer(std::string("Examples:\n") + examples);
@@ -259,28 +248,12 @@ void add_commands(CLI::App& app, Arguments& into) {
       "reproduce",
       "regenerate a report of docs/reports: printed tables and figures beside our simulations, or the "
       "ledger of published claims");
-  std::vector<std::string> reports;
-  std::string about = "which report:";
-  for (const auto& report : reports::reproductions()) {
-    about += fmt::format("{} {} ({})", reports.empty() ? "" : ";", report.name, report.about);
-    reports.emplace_back(report.name);
-  }
-  about += fmt::format("; {} (every claim of the publications, decided or simulated)", kLedger);
-  reports.emplace_back(kLedger);
-  into.reproduce.report = reports.front();
-  reproduce->add_option("REPORT", into.reproduce.report, about)
-      ->check(CLI::IsMember(reports))
-      ->capture_default_str();
-  reproduce->add_option("--out", into.reproduce.directory,
-                        "folder for the report (default: reports-out/<name of the report>)");
-  reproduce->add_option("--seeds", into.reproduce.seeds, "noise seeds (default: those of docs/reports)")
-      ->check(CLI::Range(1, 100000));
-  add_renderings(*reproduce, "report.html", into.reproduce.renderings);
+  add_reproduce_options(*reproduce, into.reproduce);
 
-  // For help and completions: main() hands the words over unread.
+  // These two for help and completions: main() hands the words over unread.
   CLI::App* sweep = app.add_subcommand(
       "sweep", "certify many designs: run SPEC, report SPEC or verify SPEC, by the package for Python");
-  sweep->add_option("WORD", into.sweep.words, "run (may be left out), report or verify; SPEC.toml; options")
+  sweep->add_option("WORD", into.sweep, "run (may be left out), report or verify; SPEC.toml; options")
       ->required();
 
   CLI::App* explain = app.add_subcommand(

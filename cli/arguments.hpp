@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/reproduce_options.hpp"
 
 namespace veritrack::cli {
 
@@ -18,7 +20,7 @@ struct Arguments {
   TuneOptions tune;
   TrackOptions track;
   ReproduceOptions reproduce;
-  SweepOptions sweep;
+  std::vector<std::string> sweep;  ///< the words
   ExplainOptions explain;
   NewOptions new_design;
   std::string shell;  ///< of completions

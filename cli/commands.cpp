@@ -22,8 +22,6 @@
 #include "cli/progress_line.hpp"
 #include "cli/verifier.hpp"
 #include "reports/certificate_files.hpp"
-#include "reports/ledger/ledger_report.hpp"
-#include "reports/reproductions/reproduction.hpp"
 #include "reports/tracker_reports.hpp"
 
 namespace veritrack::cli {
@@ -180,35 +178,6 @@ ExitStatus run_show(const ShowOptions& options) {
                    certificates::names_of_kinds([](const auto& each) { return each.show != nullptr; }));
   }
   fmt::print("{}", kind.show(design, certificates::code_language(options.language).value()));
-  return all_proved;
-}
-
-namespace {
-
-reports::WrittenReport write_reproduction(const ReproduceOptions& options) {
-  const auto folder = [&](std::string_view name) {
-    return options.directory.empty() ? std::filesystem::path("reports-out") / name
-                                     : std::filesystem::path(options.directory);
-  };
-  const ProgressLine line(options.quiet, "simulating");
-  const auto tell = [&](int done, int most) { line(done, most, "simulated"); };
-  if (options.report == kLedger) {
-    return reports::ledger::write_ledger(options.seeds, folder(kLedger), options.renderings, tell);
-  }
-  const reports::Reproduction& report =
-      options.report.empty() ? reports::reproductions().front() : reports::find_reproduction(options.report);
-  const int runs = options.seeds > 0 ? options.seeds : report.runs;
-  return report.write(runs, folder(report.name), options.renderings, tell);
-}
-
-}  // namespace
-
-ExitStatus run_reproduce(const ReproduceOptions& options) {
-  const reports::WrittenReport written = write_reproduction(options);
-  if (!written.warning.empty()) {
-    fmt::print(stderr, "{}: {}\n", written.document.string(), written.warning);
-  }
-  fmt::print("{}\n", written.document.string());
   return all_proved;
 }
 

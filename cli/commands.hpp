@@ -13,9 +13,6 @@ namespace veritrack::cli {
 
 enum ExitStatus : int { all_proved = 0, not_proved = 1, bad_input = 2, bad_arithmetic = 3 };
 
-/// Above the other reports of `reproduce`: it collects what they find.
-inline constexpr const char* kLedger = "ledger";
-
 struct CertifyOptions {
   std::string design;
   std::string directory;
@@ -92,18 +89,6 @@ struct TrackOptions {
   bool quiet = false;            ///< no progress on standard error
 };
 
-struct ReproduceOptions {
-  reports::page::Renderings renderings;
-  std::string report;  ///< empty: the first
-  std::string directory;
-  int seeds = 0;       ///< 0: the number used for the report in docs/reports
-  bool quiet = false;  ///< no progress on standard error
-};
-
-struct SweepOptions {
-  std::vector<std::string> words;  ///< the arguments, which the package for Python reads
-};
-
 struct ExplainOptions {
   std::vector<std::string> words;  ///< none: everything that is explained is listed
 };
@@ -120,9 +105,6 @@ struct NewOptions {
 [[nodiscard]] ExitStatus run_show(const ShowOptions& options);
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
 [[nodiscard]] ExitStatus run_track(const TrackOptions& options);
-[[nodiscard]] ExitStatus run_reproduce(const ReproduceOptions& options);
-/// Does not return unless the interpreter cannot be run.
-[[nodiscard]] ExitStatus run_sweep(const SweepOptions& options);
 [[nodiscard]] ExitStatus run_explain(const ExplainOptions& options);
 [[nodiscard]] ExitStatus run_new(const NewOptions& options);
 

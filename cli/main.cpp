@@ -1,6 +1,4 @@
 // The command line: reads arguments and calls commands.hpp.
-#include <malloc.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,26 +6,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
-#include <exception>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "analysis/rigor/rounding.hpp"
-#include "analysis/rigor/self_test.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/nearest_key.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
+#include "cli/hand_over.hpp"
+#include "cli/program.hpp"
 #include "cli/shell_words.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/version.hpp"
 
 namespace {
 
 using namespace veritrack::cli;  // NOLINT(google-build-using-namespace): this file is made of it
-namespace rigor = veritrack::rigor;
 
 /// What to say when the first argument that is no option is no command; empty when it is one.
 std::string unknown_command(CLI::App& app, int argc, char** argv) {
@@ -81,17 +75,12 @@ std::string unknown_option(CLI::App& app, int argc, char** argv) {
   return {};
 }
 
-/// The words of `veritrack sweep`, which another program reads; nothing for other commands, and for its help.
-std::optional<SweepOptions> words_of_sweep(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() < 2 || words[0] != "sweep" || words[1] == "--help" || words[1] == "-h") {
-    return std::nullopt;
-  }
-  return SweepOptions{{words.begin() + 1, words.end()}};
-}
-
 int run(int argc, char** argv) {
-  if (const auto sweep = words_of_sweep(argc, argv)) {
+  if (const auto words = words_after("reproduce", argc, argv)) {
+    return run_reproduce(*words);
+  }
+  const auto sweep = words_after("sweep", argc, argv);
+  if (sweep && !sweep->empty() && sweep->front() != "--help" && sweep->front() != "-h") {
     return run_sweep(*sweep);
   }
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
@@ -125,7 +114,7 @@ int run(int argc, char** argv) {
   }
 
   arguments.certify.quiet = arguments.check.quiet = arguments.map.quiet = arguments.track.quiet = quiet;
-  arguments.diff.quiet = arguments.tune.quiet = arguments.reproduce.quiet = quiet;
+  arguments.diff.quiet = arguments.tune.quiet = quiet;
 
   if (app.got_subcommand("explain")) {
     return run_explain(arguments.explain);
@@ -142,14 +131,7 @@ int run(int argc, char** argv) {
     return all_proved;
   }
 
-  const rigor::SelfTestReport self_test = rigor::run_self_test();
-  if (!self_test.passed()) {
-    for (const std::string& failure : self_test.failures) {
-      fmt::print(stderr, "veritrack: arithmetic self-test: {}\n", failure);
-    }
-    fmt::print(
-        stderr,
-        "veritrack: this machine or this build cannot be trusted with a certificate; nothing was computed\n");
+  if (!trusts_arithmetic()) {
     return bad_arithmetic;
   }
   if (app.got_subcommand("diff")) {
@@ -167,33 +149,11 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("track")) {
     return run_track(arguments.track);
   }
-  if (app.got_subcommand("reproduce")) {
-    return run_reproduce(arguments.reproduce);
-  }
   return app.got_subcommand("certify") ? run_certify(arguments.certify) : run_check(arguments.check);
-}
-
-/// What is freed is kept for the next polynomial instead of being given back to the kernel: with nine states
-/// that took a third of the time.
-void keep_freed_memory() {
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
-  mallopt(M_MMAP_THRESHOLD, 1 << 25);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    keep_freed_memory();
-    prepare_standard_streams();
-    const int status = run(argc, argv);
-    finish_standard_output();
-    return status;
-  } catch (const rigor::RoundingModeError& error) {
-    fmt::print(stderr, "veritrack: {}; nothing that was computed can be trusted\n", error.what());
-    return bad_arithmetic;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return bad_input;
-  }
+  return run_program(argc, argv, run);
 }

@@ -12,6 +12,7 @@
 
 #include "certificates/design/input_error.hpp"
 #include "cli/interruption.hpp"
+#include "cli/program.hpp"
 #include "reports/program.hpp"
 
 namespace veritrack::cli {
@@ -85,9 +86,7 @@ Verification outcome_of(const ProgramRun& run) {
 }  // namespace
 
 Verifier::Verifier() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  path_ = program.parent_path() / kName;
+  path_ = path_beside(kName);
   constexpr std::string_view kExpected = "veritrack-verify " VERITRACK_VERSION ", ";
   std::string found;
   try {

@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS veritrack veritrack-verify RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
+install(TARGETS veritrack veritrack-reproduce veritrack-verify RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
 
 # ---- what the program says of itself
 set(veritrack_manual "${PROJECT_BINARY_DIR}/manual")

@@ -1,4 +1,4 @@
-// The only list of trackers in reports/.
+// What reports/ has for the trackers.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,15 +8,13 @@
 #include <utility>
 
 #include "certificates/design/request_error.hpp"
-#include "reports/dft_block/dft_block_reports.hpp"
-#include "reports/kkl_observer/kkl_observer_reports.hpp"
-#include "reports/model/model_reports.hpp"
-#include "reports/quadrature/quadrature_reports.hpp"
-#include "reports/regulator/regulator_reports.hpp"
-#include "reports/single_channel/single_channel_reports.hpp"
 #include "reports/tracker_reports.hpp"
 
 namespace veritrack::reports {
+
+#define VERITRACK_TRACKER(column) [[nodiscard]] const TrackerReports& column##_reports();
+#include "certificates/trackers.def"
+#undef VERITRACK_TRACKER
 
 namespace {
 
@@ -50,8 +48,11 @@ std::vector<std::string_view> given_options(const MapRequest& request) {
 }  // namespace
 
 std::span<const TrackerReports* const> tracker_reports() {
-  static const std::array all{&quadrature_reports(), &kkl_observer_reports(), &single_channel_reports(),
-                              &model_reports(),      &regulator_reports(),    &dft_block_reports()};
+  static const std::array all{
+#define VERITRACK_TRACKER(column) &column##_reports(),
+#include "certificates/trackers.def"
+#undef VERITRACK_TRACKER
+  };
   return all;
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/experiments/running_statistics.hpp"
+#include "analysis/search/running_statistics.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 #include "trackers/signals/random.hpp"
@@ -25,7 +25,7 @@ struct FilterResponse {
   double gain, frequency, shift;
 };
 
-SteadyStatistics steady_part(const experiments::RunningStatistics& statistics) {
+SteadyStatistics steady_part(const search::RunningStatistics& statistics) {
   return {statistics.mean(), statistics.deviation()};
 }
 
@@ -59,10 +59,10 @@ CaptionStatistics caption_statistics(const Eigen::Vector4d& lambda, double ell, 
   const double length = window.end - window.begin;
   const auto steps = static_cast<long>(std::ceil(
       length / (2.0 * std::numbers::pi) * static_cast<double>(section_v_steps(disturbance_frequency))));
-  experiments::RunningStatistics amplitude;
-  experiments::RunningStatistics frequency;
-  experiments::RunningStatistics some_amplitude;
-  experiments::RunningStatistics some_frequency;
+  search::RunningStatistics amplitude;
+  search::RunningStatistics frequency;
+  search::RunningStatistics some_amplitude;
+  search::RunningStatistics some_frequency;
   CaptionStatistics result;
   result.largest_ell = std::numeric_limits<double>::infinity();
   for (long k = 0; k <= steps; ++k) {

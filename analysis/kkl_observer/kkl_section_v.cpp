@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/experiments/running_statistics.hpp"
+#include "analysis/search/running_statistics.hpp"
 #include "analysis/kkl_observer/kkl_caption_window.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "trackers/kkl_observer/adaptive_oscillator_observer.hpp"
@@ -21,7 +21,7 @@ using rigor::Interval;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-SteadyStatistics steady(const experiments::RunningStatistics& statistics) {
+SteadyStatistics steady(const search::RunningStatistics& statistics) {
   return {statistics.mean(), statistics.deviation()};
 }
 
@@ -42,8 +42,8 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
   SectionVRun result;
   result.disturbance_frequency = disturbance_frequency;
   result.samples.reserve(kSamples + 1);
-  experiments::RunningStatistics amplitude;
-  experiments::RunningStatistics frequency;
+  search::RunningStatistics amplitude;
+  search::RunningStatistics frequency;
   double before = signal(0);
   for (long k = 1; k <= steps; ++k) {
     const double now = signal(k);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "analysis/dft_block/false_lock.hpp"
-#include "analysis/dft_block/lock_claims.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/support/random.hpp"
@@ -174,17 +173,6 @@ TEST_CASE("what is no lock is not proved") {
   dft_block::LockProposal smaller = lock->set;
   smaller.radius *= 0.5;
   CHECK(verify_lock(cell, smaller));
-}
-
-TEST_CASE("each printed design has starts from which it never finds the tone") {
-  const rigor::UpwardRounding upward;
-  const auto claims = dft_block::lock_claims();
-  REQUIRE(claims.size() == 3);
-  for (const theorems::Statement& claim : claims) {
-    CAPTURE(claim.id);
-    CHECK(claim.verdict == rigor::Verdict::proved);
-    CHECK(claim.witness.find("-0.9") != std::string::npos);
-  }
 }
 
 TEST_CASE("false locks of a design are found on either side, for a tone of its band") {

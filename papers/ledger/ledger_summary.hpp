@@ -1,0 +1,37 @@
+// The ledger on one page: of each publication what stands, what falls, and what is proved in its place.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "papers/ledger/ledger.hpp"
+
+namespace veritrack::reports::ledger {
+
+/// A publication, or a part of one, in a few words. The words are ours; the rows that they rest on are named,
+/// and a test holds their verdicts against the words.
+struct SummaryLine {
+  theorems::Paper paper;
+  std::string_view publication;
+  std::string_view stands;
+  std::string_view falls;
+  std::string_view repair;
+  std::vector<std::string_view> proved;   ///< claims that stand
+  std::vector<std::string_view> refuted;  ///< claims that fall
+};
+
+/// Every publication at least once.
+[[nodiscard]] std::span<const SummaryLine> summary_lines();
+
+/// The page: a sentence with the numbers, and the lines as a table.
+[[nodiscard]] std::string summary(const std::vector<Row>& rows);
+
+/// How many claims of what kind have which verdict, in words.
+[[nodiscard]] std::string count_sentences(const std::vector<Row>& rows);
+
+/// The same by publication and role, as a table.
+[[nodiscard]] std::string counts_table(const std::vector<Row>& rows);
+
+}  // namespace veritrack::reports::ledger

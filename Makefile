@@ -1,13 +1,17 @@
 # The two commands a newcomer needs:
 #   make certificate   install what is missing, build, and certify a published design
 #   make test          the same for the tests
+# the one that a sceptic needs:
+#   make checker       install what is missing, build the checker alone, and verify a certificate
 # and the ones that continuous integration adds: make lint, sanitize, fuzz, verify, proofs, mutation; and make bench.
 
 MAKEFLAGS += --no-print-directory
 
-BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev coinor-libipopt-dev libnlopt-cxx-dev \
-  libmpfr-dev nettle-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
-  libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev libcmark-gfm-dev libcmark-gfm-extensions-dev \
+# What the checker is built with, and nothing else: five libraries and the tools.
+CHECKER_PACKAGES := g++ cmake make pkg-config libflint-arb-dev libflint-dev libmpfr-dev nlohmann-json3-dev nettle-dev \
+  libtomlplusplus-dev
+BUILD_PACKAGES := $(CHECKER_PACKAGES) ninja-build libeigen3-dev coinor-libipopt-dev libnlopt-cxx-dev libcli11-dev libfmt-dev \
+  libtbb-dev gnuplot-nox tao-pegtl-dev libsndfile1-dev libcmark-gfm-dev libcmark-gfm-extensions-dev \
   libkainjow-mustache-dev libpugixml-dev libjs-katex
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev libboost-dev python3-jsonschema python3-yaml clang git
@@ -26,6 +30,7 @@ PAGE_PACKAGES  := chromium texlive-latex-recommended $(if $(shell command -v npm
 # dpkg-shlibdeps, which finds what the package needs
 DEB_PACKAGES   := dpkg-dev file
 
+CERTIFICATE  ?= tests/certificates/accepted/contraction.json
 DESIGN       ?= designs/la-scala-1994-figure-3.5-without-leak.toml
 JOBS         ?= $(shell nproc)
 FUZZ_SECONDS ?= 30
@@ -44,13 +49,20 @@ PROOF_DESIGNS  ?= designs/praly-section-v-proved-ell.toml designs/la-scala-1994-
 # --whole: each file as it stands, not in two parts
 PROOF_OPTIONS  ?=
 
-.PHONY: certificate programs verify proofs pages test lint format sanitize fuzz mutation bench wheel deb clean
+.PHONY: certificate checker programs verify proofs pages test lint format sanitize fuzz mutation bench wheel deb clean
 
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
 	@build/release/veritrack certify $(DESIGN)
+
+# The checker alone (checker/README.md), which shares no code with the rest, as a project of its own in build/checker.
+checker:
+	@scripts/install-packages $(CHECKER_PACKAGES)
+	@cmake -S checker -B build/checker >&2
+	@cmake --build build/checker --parallel $(JOBS) >&2
+	@build/checker/veritrack-verify $(CERTIFICATE)
 
 # What the targets below run: make -j2 --output-sync verify proofs builds it once, and then runs both side by side.
 programs:

@@ -1,9 +1,10 @@
 # What `cmake --install` puts where: programs, manual pages, completions, documents, designs, the headers of the trackers,
-# and the library up to certificates/ with its headers. Reports, command line and checker are programs, not libraries.
+# and the library up to certificates/ with its headers. Reports and command line are programs, not libraries. The checker
+# installs itself.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS veritrack veritrack-reproduce veritrack-verify RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
+install(TARGETS veritrack veritrack-reproduce RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
 
 # ---- what the program says of itself
 set(veritrack_manual "${PROJECT_BINARY_DIR}/manual")
@@ -18,8 +19,7 @@ add_custom_command(
   DEPENDS veritrack
   VERBATIM)
 add_custom_target(veritrack_manual_files ALL DEPENDS "${veritrack_manual}/veritrack.1")
-install(FILES "${veritrack_manual}/veritrack.1" checker/veritrack-verify.1
-        DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT programs)
+install(FILES "${veritrack_manual}/veritrack.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT programs)
 install(FILES "${veritrack_manual}/veritrack" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
         COMPONENT programs)
 install(FILES "${veritrack_manual}/_veritrack" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions"

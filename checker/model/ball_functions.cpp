@@ -1,11 +1,12 @@
 // Elementary functions of ball polynomials: Taylor's polynomial at the constant coefficient, with Lagrange's
 // remainder over all values, both from Arb's power series.
+#include "checker/model/ball_polynomial.hpp"
+
 #include <arb_poly.h>
 
 #include <array>
 #include <cmath>
 
-#include "checker/model/ball_polynomial.hpp"
 #include "checker/model/formula.hpp"
 #include "checker/model/rounding.hpp"
 #include "checker/numbers/budget.hpp"

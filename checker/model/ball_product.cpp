@@ -1,9 +1,10 @@
 // Products of ball polynomials.
+#include "checker/model/ball_polynomial.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 
-#include "checker/model/ball_polynomial.hpp"
 #include "checker/model/rounding.hpp"
 #include "checker/numbers/budget.hpp"
 

@@ -1,9 +1,9 @@
 // What the estimate of the frequency does in a tube.
+#include "checker/model/tube_check.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "checker/model/tube_check.hpp"
 
 namespace veritrack::checker {
 

@@ -1,8 +1,9 @@
 // Condition (b): every step keeps the covariance between its bounds.
+#include "checker/quadrature/set_inequality.hpp"
+
 #include <cmath>
 
 #include "checker/numbers/matrix3.hpp"
-#include "checker/quadrature/set_inequality.hpp"
 
 namespace veritrack::checker {
 

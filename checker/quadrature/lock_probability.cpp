@@ -13,10 +13,6 @@ Ball deviation_of(const Ball& decibels) {
 
 }  // namespace
 
-bool is_gaussian(const Tree& assume) {
-  return assume.at("noise").kind() == Tree::Kind::object && assume.at("noise").find("text") == nullptr;
-}
-
 GaussianNoise read_gaussian_noise(const Tree& assume, const Ball& amplitude, Objections& objections) {
   const Tree& noise = assume.at("noise");
   GaussianNoise result;

@@ -14,9 +14,6 @@ struct GaussianNoise {
   Ball samples;    ///< N
 };
 
-/// `assume.noise` is an object, so that the noise is Gaussian.
-bool is_gaussian(const Tree& assume);
-
 /// From `assume`: noise, an object with either snr_db, the signal-to-noise ratio amplitude^2/(2 sigma^2) in
 /// dB, or deviation, that of each channel in signal units; frequency_walk; samples. Objects to other members
 /// of noise, a deviation that is not positive, a walk that is negative, fewer than one sample, and a slew

@@ -1,8 +1,8 @@
 // What rounding does to the state as the proofs see it: polar_rounding and rounding_share of
 // rounded_step.hpp.
-#include <cmath>
-
 #include "checker/quadrature/rounded_step.hpp"
+
+#include <cmath>
 
 namespace veritrack::checker {
 

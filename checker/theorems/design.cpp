@@ -60,6 +60,10 @@ void read_covariance_range(const Tree& range, Design& design, Objections& object
 
 }  // namespace
 
+bool is_gaussian(const Tree& assume) {
+  return assume.at("noise").kind() == Tree::Kind::object && assume.at("noise").find("text") == nullptr;
+}
+
 Design read_design(const Tree& tree, Objections& objections) {
   const auto positive = [&](const Tree& table, const char* name) {
     return read_positive(table.at(name), name, objections);

@@ -28,6 +28,9 @@ struct Design {
   [[nodiscard]] bool without_leak() const { return certainly_equal(epsilon, zero); }
 };
 
+/// `assume.noise` is an object, so that the noise is Gaussian.
+bool is_gaussian(const Tree& assume);
+
 /// Objects to numbers that [lo, hi] does not contain, and to what no design can be.
 Design read_design(const Tree& design, Objections& objections);
 

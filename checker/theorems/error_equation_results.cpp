@@ -1,7 +1,8 @@
 // Results that rest on the error equation, within a radius that the certificate chooses.
+#include "checker/theorems/published_results_parts.hpp"
+
 #include "checker/theorems/conditions.hpp"
 #include "checker/theorems/error_equation.hpp"
-#include "checker/theorems/published_results_parts.hpp"
 #include "checker/theorems/theorem_2_9.hpp"
 
 namespace veritrack::checker {

@@ -1,7 +1,8 @@
 // Results about the model, the filter's covariance, and the continuous-time tracker: formulas of the design
 // alone.
-#include "checker/theorems/conditions.hpp"
 #include "checker/theorems/published_results_parts.hpp"
+
+#include "checker/theorems/conditions.hpp"
 #include "checker/theorems/signal_model.hpp"
 #include "checker/theorems/theorem_2_9.hpp"
 

@@ -47,8 +47,6 @@ TEST_CASE("noise is read, by its ratio to the signal or by its deviation") {
   other.noise = R"("deviation": )" + exactly("0.75", "0x1.8p-1");
   CHECK(read_noise(other, objections, 3.0).deviation.near() == 0.25);
   CHECK(objections.empty());
-  CHECK(is_gaussian(read_json(R"({"noise": {"snr_db": {}}})")));
-  CHECK_FALSE(is_gaussian(read_json(R"({"noise": )" + exactly("0.75", "0x1.8p-1") + "}")));
 }
 
 TEST_CASE("noise that is no noise, or said twice, is an objection") {

@@ -65,3 +65,8 @@ TEST_CASE("a leak is not all that there is") {
   written.numbers.at("epsilon") = {"1", "0x1p+0"};
   CHECK(read(written).objections.size() == 1);
 }
+
+TEST_CASE("noise is Gaussian when it is no number") {
+  CHECK(is_gaussian(read_json(R"({"noise": {"snr_db": {}}})")));
+  CHECK_FALSE(is_gaussian(read_json(R"({"noise": )" + json_of({"0.75", "0x1.8p-1"}) + "}")));
+}

@@ -1,5 +1,5 @@
 # The two commands a newcomer needs:
-#   make certificate   install what is missing, build, and certify a published design
+#   make certificate   install what is missing, build, and certify a design
 #   make test          the same for the tests
 # and the ones that continuous integration adds: make lint, sanitize, fuzz, verify, proofs, mutation; and make bench.
 
@@ -26,7 +26,7 @@ PAGE_PACKAGES  := chromium texlive-latex-recommended $(if $(shell command -v npm
 # dpkg-shlibdeps, which finds what the package needs
 DEB_PACKAGES   := dpkg-dev file
 
-DESIGN       ?= designs/la-scala-1994-figure-3.5-without-leak.toml
+DESIGN       ?= designs/motor-tone-8-khz.toml
 JOBS         ?= $(shell nproc)
 FUZZ_SECONDS ?= 30
 # nightly: with the tests that take long and rarely fail

@@ -1,5 +1,5 @@
 # The two commands a newcomer needs:
-#   make certificate   install what is missing, build, and certify a published design
+#   make certificate   install what is missing, build, and certify a design
 #   make test          the same for the tests
 # the one that a sceptic needs:
 #   make checker       install what is missing, build the checker alone, and verify a certificate
@@ -31,7 +31,7 @@ PAGE_PACKAGES  := chromium texlive-latex-recommended $(if $(shell command -v npm
 DEB_PACKAGES   := dpkg-dev file
 
 CERTIFICATE  ?= tests/certificates/accepted/contraction.json
-DESIGN       ?= designs/la-scala-1994-figure-3.5-without-leak.toml
+DESIGN       ?= designs/motor-tone-8-khz.toml
 JOBS         ?= $(shell nproc)
 FUZZ_SECONDS ?= 30
 # nightly: with the tests that take long and rarely fail

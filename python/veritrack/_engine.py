@@ -49,7 +49,7 @@ class Engine:
         return self._process.poll() is None
 
     def kill(self) -> None:
-        """Ends the process at once, whatever it does. Who waits for its answer gets an EngineError."""
+        """Ends the process at once. Callers that wait for its answer get an EngineError."""
         self._process.kill()
         self._process.wait()
 

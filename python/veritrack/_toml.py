@@ -13,7 +13,7 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
 
 
 def parse(text: str) -> dict[str, Any]:
-    """The tables of a TOML text, with decimals in place of doubles."""
+    """The tables of a TOML text, with decimals instead of doubles."""
     return tomllib.loads(text, parse_float=decimal.Decimal)
 
 
@@ -29,7 +29,7 @@ def dump(document: Mapping[str, Any]) -> str:
 
 
 def key_at(text: str, line: int) -> str:
-    """Which key stands on a line of a text that `dump` has written.
+    """The key on a line of a text that `dump` has written.
 
     Parameters
     ----------

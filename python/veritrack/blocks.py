@@ -18,16 +18,16 @@ _STATES = np.array(["settling", "lock", "false lock", "no tone"])
 
 @dataclasses.dataclass(frozen=True)
 class BlockTrack:
-    """What a block tracker says, for each block: arrays (..., blocks), with the batch in front.
+    """The results of a block tracker, for each block: arrays (..., blocks), with the batch in front.
 
     Attributes
     ----------
     frequency : ndarray
         The estimate with this block, rad/sample.
     deviation : ndarray
-        Of the estimate, as the filter believes, rad/sample.
+        The deviation of the estimate that the filter expects, rad/sample.
     offset : ndarray
-        Of the frequency from the bin in the middle, bins.
+        The offset of the frequency from the bin in the middle, bins.
     amplitude : ndarray
         Signal units.
     phase : ndarray
@@ -35,12 +35,13 @@ class BlockTrack:
     covariance : ndarray, (..., blocks, 3, 3)
         Of (x1, x2, x3) = (sqrt(amplitude / (4 pi)), phase, offset), as the filter believes.
     lock : ndarray of str
-        What the last blocks say of the lock: "settling" (too few of them), "lock", "false lock" (another offset
+        The lock over the last blocks: "settling" (too few of them), "lock", "false lock" (another offset
         explains more than twice as much of their power) or "no tone".
     unexplained : ndarray
-        The share of the power of the bins that the estimate leaves, over the last blocks: 0 in lock without noise.
+        The share of the bins' power that the estimate does not explain, over the last blocks: 0 in lock without
+        noise.
     best_frequency : ndarray
-        Of the tone that explains most of the last blocks, to 1/16 bin, rad/sample: where to start again.
+        The frequency of the tone that explains most of the last blocks, to 1/16 bin, rad/sample: where to start again.
     """
 
     frequency: Array
@@ -75,15 +76,15 @@ class DftBlockEkf(_Trackers):
     half_width : int
         Bins on either side of it, L; 1 or more, at most M, and 2 (M + L) < T.
     frequency : array_like
-        Of the start, in the first block, rad/sample.
+        The start frequency, in the first block, rad/sample.
     amplitude : array_like
-        Of the start, signal units; above 0.
+        The start amplitude, signal units; above 0.
     phase : array_like
-        Of the start, at the first sample of the first block, where the signal is amplitude cos(phase), rad.
+        The start phase, at the first sample of the first block, where the signal is amplitude cos(phase), rad.
     covariance : array_like, (..., 3, 3)
         P(1|0) of (x1, x2, x3); the identity when it is left out.
     memory : int
-        Over about so many blocks the lock is judged.
+        The number of blocks, about, over which the lock is judged.
     """
 
     def __init__(self, q1: ArrayLike, q2: ArrayLike, q3: ArrayLike, r: ArrayLike, *, block_length: int, centre: int,
@@ -114,7 +115,7 @@ class DftBlockEkf(_Trackers):
         Parameters
         ----------
         design : Design
-            Of the tracker "dft-block-ekf", with `block_length` and `centre`.
+            A design of the tracker "dft-block-ekf", with `block_length` and `centre`.
         frequency, amplitude, phase, covariance, memory
             As for the class.
         """
@@ -151,14 +152,14 @@ class DftBlockEkf(_Trackers):
                 "phase": phase}
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> BlockTrack:
-        """Takes a recording; samples of a block that is not complete are kept for the next call.
+        """Tracks a recording; samples of a block that is not complete are kept for the next call.
 
         Parameters
         ----------
         samples : array_like
             Real, (n,) or (..., n), signal units, none missing.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------

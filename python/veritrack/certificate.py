@@ -48,7 +48,7 @@ class Claim:
     required : bool
         Whether [require] asks for it.
     requirement : str
-        What is asked for, in short.
+        The requirement, in short.
     reason : str
         The ground for the verdict.
     position : tuple of int
@@ -76,7 +76,7 @@ class Figure:
     file : str
         Such as "tube.svg".
     title, caption : str
-        What it shows, and what is seen, with units.
+        A description of the figure, with units.
     svg : str
     tables : mapping
         From names to the CSV of its numbers.
@@ -127,7 +127,7 @@ def claims_of(answer: Mapping[str, Any]) -> tuple[Claim, ...]:
 
 
 def bounds_of(claims: tuple[Claim, ...]) -> dict[str, Bound]:
-    """The bounds of what is proved of the tracker, under the hypotheses of the claim that each names.
+    """The proved bounds, under the hypotheses of the claim that each names.
 
     A name alone stands for what is required, guaranteed, or tolerated under the assumptions of the design. What
     another claim says, perhaps under other assumptions, has that claim in front: "ekf/lowest-snr/lowest_snr".
@@ -149,31 +149,31 @@ def bounds_of(claims: tuple[Claim, ...]) -> dict[str, Bound]:
 
 
 class Certificate:
-    """What is proved, refuted and undecided of a design; `certify` makes it.
+    """The proved, refuted and undecided claims about a design; `certify` makes it.
 
     Attributes
     ----------
     design : Design
     verdict : str
-        Of everything required: "proved", "refuted", "undecided", or "nothing-required".
+        The verdict on everything required: "proved", "refuted", "undecided", or "nothing-required".
     headline : str
-        What was required, and the verdict on it.
+        The requirements, and the verdicts on them.
     claims : tuple of Claim
     bounds : dict of str to Bound
-        What is proved of the tracker, by name.
+        The proved bounds, by name.
     files : mapping
         The documents by their names: certificate.json, report.json, certificate.md, and published-theorems.md
         where there is one.
     missing_figures : str
         Why there are no figures; empty when nothing is missing.
     sha256 : str
-        Of certificate.json, 64 hexadecimal digits.
+        The SHA-256 of certificate.json, 64 hexadecimal digits.
 
     Parameters
     ----------
     design : Design
     answer : mapping
-        Of the process that certifies.
+        The answer of the process that certifies.
     """
 
     def __init__(self, design: Design, answer: Mapping[str, Any]) -> None:
@@ -202,7 +202,7 @@ class Certificate:
 
     @property
     def report(self) -> dict[str, Any]:
-        """report.json: all that is told of the design."""
+        """report.json: everything that is reported about the design."""
         return json.loads(self.files["report.json"])
 
     @property
@@ -310,7 +310,7 @@ def _umask() -> int:
 
 def certify(design: Design | str | os.PathLike[str], *, extent: str = "everything", figures: bool = True,
             timeout: float | None = None, threads: int = 0) -> Certificate:
-    """Evaluates everything that can be said of a design.
+    """Certifies a design.
 
     Ctrl-C ends the work at once.
 
@@ -318,7 +318,7 @@ def certify(design: Design | str | os.PathLike[str], *, extent: str = "everythin
     ----------
     design : Design or path
     extent : {"everything", "requirements", "verdicts", "quick"}
-        "requirements": what decides [require], and not what takes long and is only told beside it. "verdicts": the
+        "requirements": what decides [require], and not what takes long and is only reported. "verdicts": the
         same verdicts, with bounds no better than they need. "quick": one search for a set that does all that is
         required, and no other; what it leaves undecided, another extent may prove.
     figures : bool
@@ -326,7 +326,7 @@ def certify(design: Design | str | os.PathLike[str], *, extent: str = "everythin
     timeout : float, optional
         Seconds after which the work is stopped.
     threads : int
-        At most so many for the searches; 0: as many as there are cores. No result depends on it.
+        The largest number of threads for the searches; 0: the number of cores. No result depends on it.
 
     Returns
     -------

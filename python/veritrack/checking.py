@@ -23,15 +23,15 @@ class Checked:
     design : Design or path
         As it was given.
     verdict : str
-        Of everything required: "proved", "refuted", "undecided", or "nothing-required"; "error" where there is
-        an error.
+        The verdict on everything required: "proved", "refuted", "undecided", or "nothing-required"; "error" where
+        there is an error.
     claims : tuple of Claim
     bounds : dict of str to Bound
-        What is proved of the tracker, as far as it decides [require].
+        The proved bounds, as far as they decide [require].
     certificate_sha256 : str
-        Of the certificate.json that has it.
+        The SHA-256 of the certificate.json that has it.
     error : Exception, optional
-        Why there are no verdicts: a file that is no design, a time limit, a process that failed.
+        Why there are no verdicts: a file that is not a valid design, a time limit, a process that failed.
     """
 
     design: Design | str | os.PathLike[str]

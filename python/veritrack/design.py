@@ -1,4 +1,4 @@
-"""Designs: what is certified."""
+"""Designs."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Design:
     name : str
         One line.
     source : str, optional
-        Where it is from, one line.
+        The source of its numbers, one line.
     **tables : mapping
         The tables of a design file (docs/design-file.md), each a mapping from keys to values: `design`,
         `assume`, `require`, `simulate`, `model`, ... Numbers are int, float (its shortest decimal is what
@@ -30,7 +30,7 @@ class Design:
     Raises
     ------
     InputError
-        With line and column in `text`, when it is no design.
+        With line and column in `text`, when it is not a valid design.
 
     Examples
     --------
@@ -72,7 +72,7 @@ class Design:
         Raises
         ------
         InputError
-            With line and column, when it is no design.
+            With line and column, when it is not a valid design.
         """
         design = cls.__new__(cls)
         design._read(text, file)
@@ -95,7 +95,7 @@ class Design:
         OSError
             When it cannot be read.
         InputError
-            With line and column, when it is no design.
+            With line and column, when it is not a valid design.
         """
         return cls.from_toml(pathlib.Path(path).read_bytes().decode("utf-8", "surrogateescape"), os.fspath(path))
 
@@ -126,7 +126,7 @@ class Design:
 
     @property
     def sha256(self) -> str:
-        """Of the text, as its certificate names it: 64 hexadecimal digits."""
+        """The SHA-256 of the text, as its certificate names it: 64 hexadecimal digits."""
         return hashlib.sha256(self._text.encode("utf-8", "surrogateescape")).hexdigest()
 
     @property
@@ -140,7 +140,7 @@ class Design:
         Parameters
         ----------
         values : mapping
-            From keys such as "design.q1" to their values; None takes a key away.
+            From keys such as "design.q1" to their values; None removes a key.
 
         Returns
         -------
@@ -149,9 +149,9 @@ class Design:
         Raises
         ------
         ValueError
-            For a key in what is no table of the design, or a number that is not finite.
+            For a key in something that is not a table of the design, or a number that is not finite.
         InputError
-            When it is no design then.
+            When the result is not a valid design.
         """
         return Design.from_toml(replaced_text(self.values, values), self._file)
 

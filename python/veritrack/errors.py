@@ -15,7 +15,7 @@ class InputError(VeritrackError, ValueError):
     file : str
         The file, as it was named.
     line, column : int
-        The place in it, from 1; 0 where there is none.
+        The place in it, from 1; 0 when unknown.
     message : str
         What was found, and what is allowed, on one line.
     """
@@ -41,7 +41,7 @@ class TimeLimit(VeritrackError, TimeoutError):
 
 
 class EngineError(VeritrackError, RuntimeError):
-    """The process that certifies ended, or could not go on."""
+    """The process that certifies ended, or could not continue."""
 
 
 class MalformedCertificate(VeritrackError, ValueError):

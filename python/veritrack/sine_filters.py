@@ -19,16 +19,16 @@ _KINDS: dict[str, tuple[Any, int]] = {
 
 @dataclasses.dataclass(frozen=True)
 class SineTrack:
-    """What a filter of a sine wave says, for each sample: arrays (..., n), with the batch in front.
+    """The results of a filter of a sine wave, for each sample: arrays (..., n), with the batch in front.
 
     Attributes
     ----------
     state : ndarray, (..., n, states)
-        Filtered; what it is depends on the kind.
+        The filtered state; its meaning depends on the kind.
     frequency : ndarray
         rad/s; with "squared-frequency" the root of its state, NaN where that is negative.
     deviation : ndarray
-        Of the last but one ("phase") or last state, as the filter believes: rad/s, or (rad/s)^2 with
+        The deviation of the last but one ("phase") or last state that the filter expects: rad/s, or (rad/s)^2 with
         "squared-frequency".
     """
 
@@ -43,24 +43,24 @@ class SineEkf(_Trackers):
     Parameters
     ----------
     kind : {"phase", "known-amplitude", "oscillator", "squared-frequency"}
-        Its state: (phase in rad, frequency in rad/s, amplitude); (phase, frequency); (signal, its derivative per s,
-        frequency); (signal, its derivative per s, squared frequency).
+        The kind, by its state: (phase in rad, frequency in rad/s, amplitude); (phase, frequency); (signal, its
+        derivative per s, frequency); (signal, its derivative per s, squared frequency).
     interval : array_like
-        Between samples, s; above 0.
+        The time between samples, s; above 0.
     measurement_variance : array_like
         Signal units squared; above 0.
     frequency_noise : array_like
         Spectral density of the noise of the frequency, or of its square; 0 or more.
     state : array_like, (..., states)
-        Of the start, one sample before the recording.
+        The start state, one sample before the recording.
     covariance : array_like, (..., states, states)
-        Of the start.
+        The start covariance.
     amplitude_noise : array_like
         Spectral density of the noise of the amplitude, for "phase"; 0 or more.
     amplitude : array_like
-        For "known-amplitude", signal units.
+        The known amplitude, for "known-amplitude", signal units.
     euler_steps : int
-        Of the prediction of a sample, for the last two kinds.
+        Euler steps in the prediction of a sample, for the last two kinds.
     """
 
     def __init__(self, kind: str, interval: ArrayLike, measurement_variance: ArrayLike, frequency_noise: ArrayLike, *,
@@ -87,14 +87,14 @@ class SineEkf(_Trackers):
                            np.broadcast_to(matrix, (*self._shape, states, states)).reshape(-1, states**2))
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> SineTrack:
-        """Takes a recording.
+        """Tracks a recording.
 
         Parameters
         ----------
         samples : array_like
             Real, (n,) or (..., n), signal units, none missing.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------
@@ -108,7 +108,7 @@ class SineEkf(_Trackers):
 
 
 class MedianFilter(_Trackers):
-    """The subset averaged median filter of Kang, Song and Lee: takes impulses out before a tracker.
+    """The subset averaged median filter of Kang, Song and Lee: removes impulses before a tracker.
 
     Parameters
     ----------
@@ -118,9 +118,9 @@ class MedianFilter(_Trackers):
         Each an odd number of inputs, counted from 1, the oldest; left out: one with all of them, the median, for
         which `window` is odd.
     weights : sequence of float, optional
-        Of the medians of the subsets; left out: the same for all, with the sum 1.
+        The weights of the medians of the subsets; left out: the same for all, with the sum 1.
     shape : tuple of int
-        Of the batch: filters with memories of their own.
+        The shape of the batch: filters with memories of their own.
     """
 
     def __init__(self, window: int, subsets: Sequence[Sequence[int]] | None = None,
@@ -142,7 +142,7 @@ class MedianFilter(_Trackers):
         samples : array_like
             Real, (n,) or (..., n), none missing. Before the window is full, it is filled with the first one.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------

@@ -30,14 +30,14 @@ Array = NDArray[np.float64]
 
 @dataclasses.dataclass(frozen=True)
 class ToneTrack:
-    """What an extended Kalman filter says, for each sample: arrays (..., n), with the batch in front.
+    """The results of an extended Kalman filter, for each sample: arrays (..., n), with the batch in front.
 
     Attributes
     ----------
     frequency : ndarray
         The estimate with this sample, rad/sample.
     deviation : ndarray
-        Of the estimate, as the filter believes, rad/sample.
+        The deviation of the estimate that the filter expects, rad/sample.
     phasor : ndarray of complex
         In-phase and quadrature part, signal units.
     innovation : ndarray
@@ -56,7 +56,7 @@ class ToneTrack:
 
 @dataclasses.dataclass(frozen=True)
 class KklTrack:
-    """What a KKL observer says, for each sample: arrays (..., n). NaN where its estimate is no frequency.
+    """The results of a KKL observer, for each sample: arrays (..., n). NaN where its estimate is no frequency.
 
     Attributes
     ----------
@@ -75,14 +75,14 @@ class KklTrack:
 
 @dataclasses.dataclass(frozen=True)
 class NotchTrack:
-    """What an adaptive notch filter says, for each sample: arrays (..., n).
+    """The results of an adaptive notch filter, for each sample: arrays (..., n).
 
     Attributes
     ----------
     frequency : ndarray
         rad/sample.
     error : ndarray
-        What the notch left of the sample, signal units; complex with two channels.
+        The sample after the notch, signal units; complex with two channels.
     """
 
     frequency: Array
@@ -113,11 +113,11 @@ class _Trackers:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the batch; () for one tracker."""
+        """The shape of the batch; () for one tracker."""
         return self._shape
 
     def copy(self):
-        """The same trackers with the same memory, which go their own way."""
+        """Copies of the trackers with their memory, independent of the originals."""
         other = copy.copy(self)
         other._batch = copy.copy(self._batch)
         return other
@@ -161,7 +161,7 @@ def _complex(pairs: Array) -> NDArray[np.complex128]:
 
 
 class _ToneFilter(_Trackers):
-    """What both extended Kalman filters share."""
+    """Common parts of both extended Kalman filters."""
 
     @property
     def state(self) -> Array:
@@ -170,7 +170,7 @@ class _ToneFilter(_Trackers):
 
     @property
     def covariance(self) -> Array:
-        """Of the filtered state, as the filter believes."""
+        """The covariance of the filtered state that the filter expects."""
         return self._batch.estimates()[1].reshape(*self._shape, 3, 3)
 
     def _track(self, samples: Array, threads: int | None) -> ToneTrack:
@@ -210,9 +210,9 @@ class QuadratureEkf(_ToneFilter):
     epsilon : array_like
         Leak of the frequency towards zero per sample; from 0, below 1.
     frequency : array_like
-        Of the start, one sample before the recording, rad/sample.
+        The start frequency, one sample before the recording, rad/sample.
     phasor : array_like of complex
-        Of the start, signal units.
+        The start amplitudes, signal units.
     covariance : array_like, (..., 3, 3)
         P(0|0) of the state (in phase, quadrature, frequency); the identity when it is left out. With a
         certificate: the matrix that it prints, turned into the phase of the phasor.
@@ -240,16 +240,16 @@ class QuadratureEkf(_ToneFilter):
         Parameters
         ----------
         design : Design
-            Of the tracker "quadrature-ekf".
+            A design of the tracker "quadrature-ekf".
         frequency, phasor, covariance
-            Of the start, as for the class.
+            The start, as for the class.
         """
         chosen = _chosen(design, "quadrature-ekf")
         return cls(float(chosen["q1"]), float(chosen["q2"]), float(chosen["r"]), float(chosen["epsilon"]),
                    frequency=frequency, phasor=phasor, covariance=covariance)
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> ToneTrack:
-        """Takes a recording.
+        """Tracks a recording.
 
         Parameters
         ----------
@@ -258,7 +258,7 @@ class QuadratureEkf(_ToneFilter):
             axis of two numbers, in phase and in quadrature. Signal units. NaN is a sample that is missing: the
             filter predicts.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------
@@ -291,7 +291,7 @@ class SingleChannelEkf(_ToneFilter):
     epsilon : array_like
         Leak of the frequency towards zero per sample; from 0, below 1.
     frequency, phasor, covariance
-        Of the start, as for QuadratureEkf.
+        The start, as for QuadratureEkf.
     """
 
     def __init__(self, process_noise: ArrayLike, r: ArrayLike, epsilon: ArrayLike = 0.0, *,
@@ -312,7 +312,7 @@ class SingleChannelEkf(_ToneFilter):
             *_start(self._shape, phasor, frequency, covariance))
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> ToneTrack:
-        """Takes a recording.
+        """Tracks a recording.
 
         Parameters
         ----------
@@ -320,7 +320,7 @@ class SingleChannelEkf(_ToneFilter):
             Real, (n,) for all trackers or (..., n) with the shape of the batch in front; signal units. NaN is a
             sample that is missing: the filter predicts.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------
@@ -340,11 +340,11 @@ class KklObserver(_Trackers):
     Parameters
     ----------
     rates : array_like, (..., m)
-        Of the filters, 1/s; four to eight, above 0 and distinct.
+        The rates of the filters, 1/s; four to eight, above 0 and distinct.
     ell : array_like
         The constant of (9) of the paper; 0 or more.
     interval : array_like
-        Between samples, s; above 0.
+        The time between samples, s; above 0.
     """
 
     def __init__(self, rates: ArrayLike, ell: ArrayLike, interval: ArrayLike) -> None:
@@ -362,14 +362,14 @@ class KklObserver(_Trackers):
             np.broadcast_to(table, (*self._shape, count)).reshape(-1, count), design)
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> KklTrack:
-        """Takes a recording.
+        """Tracks a recording.
 
         Parameters
         ----------
         samples : array_like
             Real, (n,) or (..., n), signal units, none missing.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------
@@ -409,14 +409,14 @@ class RealNotch(_Notch):
     _kind = _trackers.RealNotchBatch
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> NotchTrack:
-        """Takes a recording.
+        """Tracks a recording.
 
         Parameters
         ----------
         samples : array_like
             Real, (n,) or (..., n), signal units, none missing.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------
@@ -432,14 +432,14 @@ class QuadratureNotch(_Notch):
     _kind = _trackers.QuadratureNotchBatch
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> NotchTrack:
-        """Takes a recording.
+        """Tracks a recording.
 
         Parameters
         ----------
         samples : array_like
             Complex, or pairs, as for QuadratureEkf.run; none missing.
         threads : int, optional
-            Among which a batch is divided; default: one for each core. No result depends on it.
+            The number of threads for a batch; default: one for each core. No result depends on it.
 
         Returns
         -------

@@ -16,7 +16,7 @@ _MALFORMED = 2
 
 @dataclasses.dataclass(frozen=True)
 class Verification:
-    """What the checker found.
+    """The result of the checker.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class Verification:
     sentences : tuple of (str, str, str)
         Claim, verdict, and the sentence as the checker composes it.
     design_sha256 : str
-        Of the design file that the certificate is about.
+        The SHA-256 of the design file that the certificate is about.
     """
 
     verified: bool

@@ -71,7 +71,7 @@ def _parser() -> argparse.ArgumentParser:
 
     run = command("run", "certify the designs that have no result yet, and report; may be left out")
     run.add_argument("--scheduler", default="", metavar="ADDRESS",
-                     help="of a Dask scheduler, such as tcp://10.0.0.1:8786, in place of workers on this machine")
+                     help="of a Dask scheduler, such as tcp://10.0.0.1:8786, instead of workers on this machine")
     run.add_argument("--timeout", type=_seconds, metavar="S", help="stop a design after S seconds")
     run.add_argument("--again", action="store_true", help="try again what was stopped or failed before")
     run.add_argument("--patience", type=_seconds, default=300.0, metavar="S",

@@ -25,7 +25,7 @@ _LEAST_COLOUR, _MOST_COLOUR, _COLOURS = 0.25, 0.95, 48
 
 @dataclasses.dataclass(frozen=True)
 class Values:
-    """What a figure shows of each point: where it is, a bound, NaN where none is proved, the verdict, and whether
+    """The data of a figure for each point: its place, a bound, NaN where none is proved, the verdict, and whether
     the bound is one at which a search stopped early, and not the best that it finds."""
 
     x: np.ndarray
@@ -52,7 +52,7 @@ def _decorate(axes, x: Axis, y: Axis) -> None:
 
 
 def _edges(centres: np.ndarray, is_logarithmic: bool) -> np.ndarray:
-    """Of the cells around the values of an axis."""
+    """The borders of the cells around the values of an axis."""
     values = np.log(centres) if is_logarithmic else centres
     middles = (values[1:] + values[:-1]) / 2
     edges = np.concatenate([[2 * values[0] - middles[0]], middles, [2 * values[-1] - middles[-1]]])

@@ -47,7 +47,7 @@ def read_spec(path: str | os.PathLike[str]) -> Spec:
 
 def spec_of(base: Design | str | os.PathLike[str], axes: Mapping[str | tuple[str, ...], Any], *,
             name: str = "a sweep", **settings: Any) -> Spec:
-    """A specification from values in place of a file.
+    """A specification from values instead of a file.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def _is_whole(value: Any, least: int, most: float = math.inf) -> bool:
 
 
 def _require_tables(reader: Reader, axes: Sequence[Axis], values: Mapping[str, Any]) -> None:
-    """That the keys of all axes have their places beside each other in the design."""
+    """Checks that the keys of all axes can coexist in the design."""
     keys = [(key, number) for number, axis in enumerate(axes) for key in axis.keys]
     for key, number in keys:
         inside = next((other for other, _ in keys if key.startswith(f"{other}.")), None)

@@ -42,9 +42,9 @@ class Recheck:
 
 def recheck(spec: Spec, store: Store, *, sample: int | None = None, seed: int = 1, jobs: int | None = None,
             progress: Callable[[int, int], None] | None = None) -> Recheck:
-    """Makes the certificates of rows anew, and has the checker prove each from its evidence.
+    """Makes the certificates of rows again, and has the checker prove each from its evidence.
 
-    A row is verified when its design, made anew from the specification, has a certificate of the recorded
+    A row is verified when its design, made again from the specification, has a certificate of the recorded
     SHA-256 that the checker verifies and that has the recorded verdict and bounds. Rows with an error say
     nothing and are left out.
 

@@ -1,4 +1,4 @@
-"""The report of a sweep: what is certified where, as Markdown, HTML and CSV."""
+"""The report of a sweep, as Markdown, HTML and CSV."""
 
 from __future__ import annotations
 

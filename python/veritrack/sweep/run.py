@@ -49,7 +49,7 @@ class Options:
     jobs : int
         Worker processes of the cluster on this machine; 0: one for each core.
     scheduler : str
-        Address of a scheduler, such as "tcp://10.0.0.1:8786", in place of such a cluster.
+        Address of a scheduler, such as "tcp://10.0.0.1:8786", instead of such a cluster.
     timeout : float or None
         Seconds after which a design is stopped; it is then an error.
     again : bool
@@ -70,13 +70,13 @@ class SchedulerLost(VeritrackError):
 
 
 class _Cluster:
-    """A connection to workers, made anew when it is lost."""
+    """A connection to workers, made again when it is lost."""
 
     def __init__(self, options: Options) -> None:
         self._options = options
         self._cluster: distributed.LocalCluster | None = None
         if not options.scheduler:
-            logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is told by the sweep
+            logging.getLogger("distributed").setLevel(logging.CRITICAL)  # the sweep reports what matters
             # Workers are processes with one thread: a design is worked on by an engine with one thread.
             self._cluster = distributed.LocalCluster(
                 n_workers=options.jobs or len(os.sched_getaffinity(0)), threads_per_worker=1, processes=True,

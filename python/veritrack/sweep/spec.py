@@ -1,4 +1,4 @@
-"""What a sweep is over: a base design, axes, and what is recorded and reported of each design."""
+"""The specification of a sweep: a base design, axes, and what is recorded and reported about each design."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 from ..design import Design, replaced_text
 
 _DIGITS = 6
-"""Significant digits of what is computed for an axis: the decimals that stand in its designs."""
+"""Significant digits of the values computed for an axis, which its designs have as decimals."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Axis:
     values : tuple
         All of them; empty for an axis that is sampled.
     ends : tuple of float
-        Of a range.
+        The ends of a range.
     is_logarithmic : bool
         Whether figures have it on a logarithmic scale.
     """
@@ -62,11 +62,11 @@ class Point:
     Attributes
     ----------
     number : int
-        From 0; the last axis goes fastest.
+        The number of the point, from 0; the last axis varies fastest.
     values : tuple
-        Along the axes.
+        The values along the axes.
     text : str
-        Of the design.
+        The text of the design.
     """
 
     number: int
@@ -87,7 +87,7 @@ class Spec:
         Its tables, with [require] of the sweep.
     axes : tuple of Axis
     count, method, seed
-        Of the samples of axes without points; a count of 1 where there are none.
+        Of the samples of axes without points; the count is 1 where there are no such axes.
     extent : str
         As for veritrack.certify.
     record : tuple of str

@@ -178,7 +178,7 @@ class Store:
                 "WHERE sweep = ?", (sweep,))]
 
     def numbers_with_verdict(self, sweep: str) -> list[int]:
-        """Of the points that have a verdict, in their order."""
+        """The numbers of the points that have a verdict, in their order."""
         with self._errors():
             return [number for number, in self._file.execute(
                 "SELECT point FROM points JOIN results USING (key) WHERE sweep = ? AND verdict != 'error' "

@@ -70,7 +70,7 @@ class Swept:
         return columns
 
     def verify(self, *, sample: int | None = None, seed: int = 1, jobs: int | None = None) -> Recheck:
-        """Has the checker prove certificates of rows that are made anew; see recheck.
+        """Has the checker prove certificates of rows that are made again; see recheck.
 
         Parameters
         ----------
@@ -114,11 +114,11 @@ def sweep(spec: Spec | Design | str | os.PathLike[str], axes: Mapping[str | tupl
     axes : mapping, optional
         From a key such as "design.q1", or a tuple of keys that go through the same values, to these values.
     folder : path, optional
-        Of the results; default: sweeps-out/<name of the specification>, or sweeps-out/sweep.
+        The folder of the results; default: sweeps-out/<name of the specification>, or sweeps-out/sweep.
     jobs : int
         Designs at a time; 0: one for each core.
     scheduler : str
-        Address of a Dask scheduler in place of workers on this machine.
+        Address of a Dask scheduler instead of workers on this machine.
     timeout : float, optional
         Seconds after which a design is stopped.
     again : bool

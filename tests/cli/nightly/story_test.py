@@ -59,7 +59,7 @@ class Story(CliTestCase):
         self.same_figure("trade-off.svg", self.folder / "certificates-out/motor-tuned/figures/trade-off.svg")
 
     def test_the_figure_of_the_readme(self):
-        self.run_here("certify", "--no-verify", ROOT / "designs/la-scala-1994-figure-3.5-without-leak.toml", "--out", "out")
+        self.run_here("certify", "--no-verify", ROOT / "designs/motor-tone-8-khz.toml", "--out", "out")
         self.same_figure("tube.svg", self.folder / "out/figures/tube.svg")
 
     def test_the_map_of_a_model(self):

@@ -51,9 +51,11 @@ PROOF_OPTIONS  ?=
 
 .PHONY: certificate checker programs verify proofs pages test lint format sanitize fuzz mutation bench wheel deb clean
 
+# Both programs for the tracker of the design (a build for all stays one); make programs builds them for all.
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
-	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF -DVERITRACK_BUILD_PYTHON=OFF \
+	  -DVERITRACK_TRACKERS="$$(scripts/trackers-of $(DESIGN) build/release)" >&2
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
 	@build/release/veritrack certify $(DESIGN)
 
@@ -64,11 +66,11 @@ checker:
 	@cmake --build build/checker --parallel $(JOBS) >&2
 	@build/checker/veritrack-verify $(CERTIFICATE)
 
-# What the targets below run: make -j2 --output-sync verify proofs builds it once, and then runs both side by side.
+# All programs, for every tracker. The targets below run them: make -j2 --output-sync verify proofs builds it once, and then runs both side by side.
 programs:
 	@scripts/install-packages $(BUILD_PACKAGES) python3-jsonschema
-	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
-	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF -DVERITRACK_TRACKERS= >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce >&2
 
 # Designs certified, and every certificate checked by a program that shares no code with the one that made it.
 verify: programs
@@ -83,14 +85,14 @@ proofs: programs
 # Pages in a browser, formulas rendered, tables through LaTeX: minutes, and large packages.
 pages:
 	@scripts/install-packages $(BUILD_PACKAGES) $(PAGE_PACKAGES)
-	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
-	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF -DVERITRACK_TRACKERS= >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce >&2
 	@scripts/test-pages build/release/veritrack
 
 test:
 	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(PYTHON_TEST_PACKAGES) \
 	  $(if $(filter nightly,$(TEST_PRESET)),$(PYTHON_NIGHTLY_PACKAGES))
-	cmake --preset release -DVERITRACK_BUILD_TESTS=ON -DVERITRACK_BUILD_PYTHON=ON
+	cmake --preset release -DVERITRACK_BUILD_TESTS=ON -DVERITRACK_BUILD_PYTHON=ON -DVERITRACK_TRACKERS=
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset $(TEST_PRESET) --parallel $(JOBS)
 
@@ -133,14 +135,14 @@ mutation:
 
 bench:
 	@scripts/install-packages $(BUILD_PACKAGES) $(BENCH_PACKAGES)
-	cmake --preset release -DVERITRACK_BUILD_BENCH=ON
+	cmake --preset release -DVERITRACK_BUILD_BENCH=ON -DVERITRACK_TRACKERS=
 	cmake --build --preset release --parallel $(JOBS)
 	for program in build/release/bench/*_bench; do $$program; done
 
 # The package for Python as a wheel for this platform, in build/wheels (docs/python.md).
 wheel:
 	@scripts/install-packages $(BUILD_PACKAGES) $(PYTHON_PACKAGES) python3-pip python3-setuptools python3-wheel
-	@cmake --preset release -DVERITRACK_BUILD_PYTHON=ON >&2
+	@cmake --preset release -DVERITRACK_BUILD_PYTHON=ON -DVERITRACK_TRACKERS= >&2
 	@VERITRACK_BUILD_FOLDER="$(CURDIR)/build/release" /usr/bin/python3 -m pip wheel --quiet --no-build-isolation --no-deps \
 	  --wheel-dir build/wheels . >&2
 	@ls build/wheels/*.whl
@@ -148,8 +150,8 @@ wheel:
 # The programs as a Debian package, in build/release/packages. scripts/try-deb installs it into an empty Debian.
 deb:
 	@scripts/install-packages $(BUILD_PACKAGES) $(DEB_PACKAGES)
-	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
-	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack_manual_files >&2
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF -DVERITRACK_TRACKERS= >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce veritrack_manual_files >&2
 	@cpack --config build/release/CPackConfig.cmake >&2
 	@ls build/release/packages/*.deb
 

@@ -1,4 +1,4 @@
-// The kinds of trackers that the checker knows: the only list of them.
+// The kinds of trackers that the checker knows (trackers.def).
 #pragma once
 
 #include "checker/document/parts.hpp"

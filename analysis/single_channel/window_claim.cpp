@@ -119,7 +119,7 @@ InstructionSet instructions_for_window() {
   return trackers::widest_instruction_set();
 }
 
-CheckWindow* check_window_of(InstructionSet set) {
+CheckWindow* check_window_of([[maybe_unused]] InstructionSet set) {
 #ifdef VERITRACK_MUTATION
   return check_window<1>;  // the guards of a proof are those of single cells
 #else

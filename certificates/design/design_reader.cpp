@@ -50,8 +50,11 @@ std::string allowed_trackers() {
   for (std::string& name : names) {
     name = fmt::format("\"{}\"", name);
   }
-  const std::string last = names.back();
+  std::string last = names.back();
   names.pop_back();
+#ifdef VERITRACK_SOME_TRACKERS
+  last += " in this build, which knows some trackers: `make programs` builds it for all";
+#endif
   return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 

@@ -166,7 +166,7 @@ class KklVerifier {
 
 }  // namespace
 
-TrackerKind kkl_observer() {
+TrackerKind kkl_observer_tracker() {
   return {"kkl-observer", [](const Tree& certificate, bool /*all_boxes*/, Verification& result) {
             KklVerifier(certificate, result).run();
           }};

@@ -5,6 +5,6 @@
 
 namespace veritrack::checker {
 
-TrackerKind kkl_observer();
+TrackerKind kkl_observer_tracker();
 
 }  // namespace veritrack::checker

@@ -312,7 +312,7 @@ class RegulatorVerifier {
 
 }  // namespace
 
-TrackerKind regulator() {
+TrackerKind regulator_tracker() {
   return {"vibration-regulator", [](const Tree& certificate, bool all_boxes, Verification& result) {
             RegulatorVerifier(certificate, all_boxes, result).run();
           }};

@@ -5,6 +5,6 @@
 
 namespace veritrack::checker {
 
-TrackerKind regulator();
+TrackerKind regulator_tracker();
 
 }  // namespace veritrack::checker

@@ -21,6 +21,14 @@ std::span<const DesignFormat* const> design_formats() {
   return formats;
 }
 
+std::string_view others_are_left_out() {
+#ifdef VERITRACK_SOME_TRACKERS
+  return " in this build, which knows some trackers: `make programs` builds it for all";
+#else
+  return "";
+#endif
+}
+
 KeyContract contract_of(std::string_view tracker, std::string_view table, std::string_view key) {
   for (const DesignFormat* format : design_formats()) {
     if (format->tracker != tracker) {

@@ -1,7 +1,9 @@
 #include "cli/arguments.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "analysis/rigor/decimal.hpp"
+#include "certificates/design/design_format.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/help/design_template.hpp"
 #include "cli/reproduce_options.hpp"
@@ -265,7 +268,15 @@ void add_commands(CLI::App& app, Arguments& into) {
       app.add_subcommand("new", "write a commented design file to begin with, which is PROVED as it is");
   make_new->add_option("TRACKER", into.new_design.tracker, "the kind of tracker")
       ->required()
-      ->check(CLI::IsMember(veritrack::certificates::templates_for()));
+      ->check(CLI::Validator(
+          [](std::string& tracker) {
+            const std::vector<std::string> known = certificates::templates_for();
+            return std::find(known.begin(), known.end(), tracker) != known.end()
+                       ? std::string()
+                       : fmt::format("{} not in {{{}}}{}", tracker, fmt::join(known, ","),
+                                     certificates::others_are_left_out());
+          },
+          fmt::format("{{{}}}", fmt::join(certificates::templates_for(), ","))));
   make_new->add_option("FILE", into.new_design.output,
                        "the file to write, which must not exist (default: standard output)");
 

@@ -59,7 +59,7 @@ ExitStatus run_reproduce(const std::vector<std::string>& words) {
   const std::string why = replace_by(path_beside("veritrack-reproduce"), arguments);
   fmt::print(stderr,
              "veritrack reproduce: veritrack-reproduce, beside veritrack, cannot be run: {}; "
-             "`ninja -C build/release veritrack-reproduce` builds it\n",
+             "`make programs` builds it\n",
              why);
   return bad_input;
 }

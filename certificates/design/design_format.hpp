@@ -78,6 +78,9 @@ struct DesignFormat {
   std::optional<TableObjection> (*objection)(const std::any& tables) = nullptr;
 };
 
+/// What to add to a list of all trackers that this build knows: how to get the others, if there are any.
+[[nodiscard]] std::string_view others_are_left_out();
+
 /// The formats of all trackers (certificates/trackers.def).
 [[nodiscard]] std::span<const DesignFormat* const> design_formats();
 

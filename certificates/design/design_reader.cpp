@@ -52,9 +52,7 @@ std::string allowed_trackers() {
   }
   std::string last = names.back();
   names.pop_back();
-#ifdef VERITRACK_SOME_TRACKERS
-  last += " in this build, which knows some trackers: `make programs` builds it for all";
-#endif
+  last += others_are_left_out();
   return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
@@ -237,7 +235,10 @@ Design read_from(const TomlSource& source, Place place) {
   design.tables = format.empty_tables();
   const BoundTable top = top_keys(design, place);
   const std::vector<BoundTable> tables = format.bind_tables(design.tables);
-  reject_unknown_keys(source, top, tables);
+  // Keys of a tracker that is not known are none of another one's.
+  if (source.root()["tracker"].value<std::string_view>().value_or(format.tracker) == format.tracker) {
+    reject_unknown_keys(source, top, tables);
+  }
   read_table(source, &source.root(), top, design.positions);
   for (const BoundTable& table : tables) {
     read_table(source, find_table(source, table.name), table, design.positions);

@@ -1,10 +1,10 @@
 #include "analysis/dft_block/block_lock.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/derivatives.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/linear_solve.hpp"
@@ -59,7 +59,7 @@ Interval length_of(const rigor::IntervalVector<kStates>& vector) {
 std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates>& derivative,
                                                      const rigor::Vector<kStates>& centre, double share) {
   const rigor::NearestRounding nearest;
-  const double largest = derivative.eigenvalues().cwiseAbs().maxCoeff();
+  const double largest = rigor::spectral_radius(derivative);
   if (!(largest < 1.0)) {
     return std::nullopt;
   }

@@ -1,7 +1,6 @@
 #include "analysis/dft_block/lock_search.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "trackers/dft_block/dft_block_ekf.hpp"
 
@@ -38,9 +38,7 @@ PointMatrix next_covariance(const PointMatrix& p, const PointMatrix& information
 }
 
 double smallest_eigenvalue(const PointMatrix& a) {
-  return Eigen::SelfAdjointEigenSolver<PointMatrix>(0.5 * (a + a.transpose()), Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
+  return rigor::least_eigenvalue(PointMatrix(0.5 * (a + a.transpose())));
 }
 
 /// Directions on the sphere, well spread.

@@ -1,11 +1,12 @@
 // What the paper claims of gamma, the inverse of T: where it inverts, and how fast it changes.
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <numbers>
 #include <utility>
 
 #include "analysis/kkl_observer/kkl_claim_parts.hpp"
 #include "analysis/kkl_observer/number_of_filters.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/decompositions.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
 namespace veritrack::kkl_observer {
@@ -176,8 +177,8 @@ SignalWitness propose_least_excited(const Eigen::Vector4d& lambda, double freque
   Eigen::Matrix2d seen;
   seen << excitation(1.0, 0.0), 0.0, 0.0, excitation(0.0, 1.0);
   seen(0, 1) = seen(1, 0) = 0.25 * (excitation(1.0, 1.0) - excitation(1.0, -1.0));
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> pencil(seen, columns.transpose() * columns);
-  const Eigen::Vector2d least = pencil.eigenvectors().col(0);
+  const Eigen::Matrix2d gram = columns.transpose() * columns;
+  const Eigen::Vector2d least = rigor::pencil_eigensystem(seen, gram).vectors.col(0);
   return {least(0), least(1) * frequency, frequency};
 }
 

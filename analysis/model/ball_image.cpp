@@ -1,11 +1,12 @@
 #include "analysis/model/ball_image.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
 
@@ -131,21 +132,21 @@ SplitGuess split_guess(const SmallDoubles& a, double radius, const SmallDoubles&
   if (!(radius > 0.0) || !(noise > 0.0)) {
     const SmallDoubles alone = radius > 0.0 ? of_a : of_b;
     guess.t = radius > 0.0 ? 1.0 : 0.0;
-    guess.eigenvalue = Eigen::SelfAdjointEigenSolver<SmallDoubles>(alone, Eigen::EigenvaluesOnly)
-                           .eigenvalues()[static_cast<Eigen::Index>(kDimensions) - 1];
+    guess.eigenvalue = rigor::largest_eigenvalue(alone);
     return guess;
   }
   guess.eigenvalue = std::numeric_limits<double>::infinity();
   double t = 0.5;
   constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
-    const Eigen::SelfAdjointEigenSolver<SmallDoubles> solver(of_a / t + of_b / (1.0 - t));
-    const double eigenvalue = solver.eigenvalues()[static_cast<Eigen::Index>(kDimensions) - 1];
+    const SmallDoubles sum = of_a / t + of_b / (1.0 - t);
+    const rigor::Eigensystem system = rigor::symmetric_eigensystem(sum);
+    const double eigenvalue = system.values[static_cast<Eigen::Index>(kDimensions) - 1];
     if (eigenvalue < guess.eigenvalue) {
       guess = {eigenvalue, t};
     }
     // For a fixed direction p the best t is |A'p|/(|A'p| + |B'p|).
-    const auto p = solver.eigenvectors().col(static_cast<Eigen::Index>(kDimensions) - 1);
+    const auto p = system.vectors.col(static_cast<Eigen::Index>(kDimensions) - 1);
     const double along_a = std::sqrt(std::max(p.dot(of_a * p), 0.0));
     const double along_b = std::sqrt(std::max(p.dot(of_b * p), 0.0));
     const double best = along_a / (along_a + along_b);

@@ -1,12 +1,13 @@
 #include "analysis/model/covariance_order.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::model {
@@ -60,9 +61,7 @@ double best_logarithm(double highest, const Eigen::MatrixXd& size, const Matrix&
     factor.matrixL().solveInPlace(matrix);
     matrix.transposeInPlace();
     factor.matrixL().solveInPlace(matrix);
-    const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-                             .eigenvalues()
-                             .minCoeff();
+    const double least = rigor::least_eigenvalue(matrix);
     return std::isfinite(least) ? -least : std::numeric_limits<double>::max();
   };
   constexpr int kSteps = 20;

@@ -1,25 +1,20 @@
 #include "analysis/model/disturbance_split.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::model {
 
 namespace {
 
-/// Of up to so many rows without an allocation: the states of a tracker and the samples of a filter. (Ball
-/// models have at most 16 and 3.)
-constexpr int kMostRows = 20;
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
-
-double largest_eigenvalue_about(const Square& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Square>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-}
+/// The states of a tracker and the samples of a filter. (Ball models have at most 16 and 3.)
+using Square = rigor::SmallMatrix;
 
 double logistic(double logit) {
   return 1.0 / (1.0 + std::exp(-logit));
@@ -52,9 +47,9 @@ std::optional<std::array<double, kParts>> soon_found(
     for (std::size_t i = 1; i < kParts; ++i) {
       sum += *parts.at(i) / shares.at(i);
     }
-    const Eigen::SelfAdjointEigenSolver<Square> solver(sum);
+    const rigor::Eigensystem system = rigor::symmetric_eigensystem(sum);
     const Eigen::Index last = sum.rows() - 1;
-    const auto p = solver.eigenvectors().col(last);
+    const auto p = system.vectors.col(last);
     std::array<double, kParts> lengths;
     double whole = 0.0;
     for (std::size_t i = 0; i < kParts; ++i) {
@@ -62,7 +57,7 @@ std::optional<std::array<double, kParts>> soon_found(
       whole += lengths.at(i);
     }
     bound = std::max(bound, whole * whole);
-    if (solver.eigenvalues()[last] <= (1.0 + kClose) * bound) {
+    if (system.values[last] <= (1.0 + kClose) * bound) {
       return shares;
     }
     const double step = round < kWholeSteps ? 1.0 : 0.5;
@@ -93,7 +88,7 @@ double proposed_split(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v) {
   }
   const auto value = [&](double logit) {
     const double t = logistic(logit);
-    return largest_eigenvalue_about(x / t + v / (1.0 - t));
+    return rigor::largest_eigenvalue(x / t + v / (1.0 - t));
   };
   // Convex in t, so one valley in the logit.
   constexpr int kSteps = 30;
@@ -113,7 +108,7 @@ std::array<double, 3> proposed_shares(const Eigen::MatrixXd& x, const Eigen::Mat
     const double t = logistic(logit_of_x);
     const double rest = logistic(-logit_of_x);
     return lowest_of([&](double logit) {
-      return largest_eigenvalue_about(x / t + v / (rest * logistic(logit)) + w / (rest * logistic(-logit)));
+      return rigor::largest_eigenvalue(x / t + v / (rest * logistic(logit)) + w / (rest * logistic(-logit)));
     });
   };
   const double logit_of_x = lowest_of([&](double logit) { return of_others(logit).cost; }).point;

@@ -1,11 +1,12 @@
 #include "analysis/model/drift_shells.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::model {
@@ -145,9 +146,7 @@ class ShellCheck {
     if (sum.size() == 0) {
       return 1.0;
     }
-    const double largest =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(sum, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-    return 1.0 - largest / demand.most;
+    return 1.0 - rigor::largest_eigenvalue(sum) / demand.most;
   }
   [[nodiscard]] bool meets(const LinearDemand& demand) const {
     std::vector<WeightedGram> sum;

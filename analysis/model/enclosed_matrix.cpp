@@ -1,10 +1,11 @@
 #include "analysis/model/enclosed_matrix.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/matrix.hpp"
 
@@ -74,9 +75,7 @@ double largest_eigenvalue(const EnclosedMatrix& matrix) {
   // Exactly symmetric, so that what is verified is what is meant.
   const Eigen::MatrixXd symmetric = matrix.middle.selfadjointView<Eigen::Lower>();
   const double asymmetry = frobenius(symmetric - matrix.middle) + kUnit * size;
-  const double proposal = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-                              .eigenvalues()
-                              .maxCoeff();
+  const double proposal = rigor::largest_eigenvalue(symmetric);
   for (double room = 1e-10; room < 1e-2; room *= 100.0) {
     const double bound = proposal + room * size;
     DynamicIntervalMatrix below = (-symmetric).cast<Interval>();

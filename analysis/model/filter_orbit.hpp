@@ -1,8 +1,8 @@
 // Bounds of a filter's covariance and a shape, carried along an orbit of the tone: see filter_proposal.hpp.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "analysis/model/filter_numbers.hpp"
 #include "analysis/model/orbit_points.hpp"
 #include "analysis/model/tube.hpp"
+#include "analysis/rigor/decompositions.hpp"
 
 namespace veritrack::model::detail {
 
@@ -67,8 +68,7 @@ inline double gaussian_growth(const Small& gram, const Small& of_noise, double s
     }
     const Small half = root.matrixL().solve(gram);
     const Small inner = root.matrixL().solve(Small(half.transpose()));
-    const double linear =
-        Eigen::SelfAdjointEigenSolver<Small>(inner, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    const double linear = rigor::largest_eigenvalue(inner);
     const double spread = -std::log(root.matrixLLT().diagonal().prod());
     for (std::size_t i = 0; i < kLevels.size(); ++i) {
       const double square = kLevels[i] * kLevels[i];
@@ -78,10 +78,6 @@ inline double gaussian_growth(const Small& gram, const Small& of_noise, double s
     }
   }
   return std::sqrt(std::max(0.0, *std::max_element(least.begin(), least.end())));
-}
-
-inline double largest_of(const Small& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Small>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 class FilterOrbit {
@@ -204,7 +200,7 @@ class FilterOrbit {
     // What the range of gains does to the curve.
     const Small offset = in_units(Small(offset_));
     const Small reach_of_offset = factor.transpose() * point_->innovation;
-    const double top = largest_of(spread);
+    const double top = rigor::largest_eigenvalue(spread);
     constexpr std::array<double, 7> kShares{1.08, 1.2, 1.4, 1.8, 3.0, 8.0, 40.0};
     for (std::size_t tried = 0; tried < kShares.size(); ++tried) {
       // What was good at the last sample first.
@@ -221,12 +217,12 @@ class FilterOrbit {
       };
       const Small x = stacked(of_x, reach_of_x);
       const Small gram = x * x.transpose();
-      const double alone = std::sqrt(largest_of(gram));
+      const double alone = std::sqrt(rigor::largest_eigenvalue(gram));
       if (parameters_.exponent > 0.0) {
         const Small v = stacked(of_v, reach_of_v);
         const Wide squares = stacked(of_squares, reach_of_squares);
-        const double drift =
-            gaussian_growth(gram, v, largest_of(Small(squares * squares.transpose())), parameters_.exponent);
+        const double drift = gaussian_growth(
+            gram, v, rigor::largest_eigenvalue(Small(squares * squares.transpose())), parameters_.exponent);
         if (drift < worst.whole) {
           worst = {drift, alone};
         }
@@ -237,7 +233,7 @@ class FilterOrbit {
         continue;
       }
       const Wide squares = stacked(of_squares, reach_of_squares);
-      others += std::sqrt(largest_of(Small(squares * squares.transpose())));
+      others += std::sqrt(rigor::largest_eigenvalue(Small(squares * squares.transpose())));
       if (alone + others > most) {
         continue;
       }
@@ -287,7 +283,7 @@ class FilterOrbit {
       if (alone / std::sqrt(t) > std::min(most, least)) {
         continue;
       }
-      const double length = std::sqrt(largest_of(Small(gram / t + other / (1.0 - t))));
+      const double length = std::sqrt(rigor::largest_eigenvalue(Small(gram / t + other / (1.0 - t))));
       if (length < least) {
         least = length;
         best = number;

@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +13,7 @@
 
 #include "analysis/model/filter_long_run.hpp"
 #include "analysis/model/filter_search.hpp"
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -157,10 +158,7 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
   }
   MatrixXd difference = root.matrixL().solve(a - b);
   difference = root.matrixL().solve(difference.transpose()).eval();
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(difference, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
+  return rigor::largest_absolute_eigenvalue(difference);
 }
 
 /// Fills in the tube of these parameters and their worth, or says that the cell is too wide. `around`: as for

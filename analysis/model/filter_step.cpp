@@ -1,7 +1,7 @@
 #include "analysis/model/filter_step.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +11,7 @@
 #include "analysis/model/map_bound.hpp"
 #include "analysis/model/place_store.hpp"
 #include "analysis/model/tube_models.hpp"
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -167,13 +168,11 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
   if (!middle.allFinite() || !of_x.allFinite() || !reach_of_x.allFinite()) {
     return 0.0;
   }
-  const double largest =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(middle, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  const double largest = rigor::largest_eigenvalue(middle);
   double best = 0.0;
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](const Eigen::MatrixXd& gram, double mu) {
-    const double length =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    const double length = rigor::largest_eigenvalue(gram);
     if (length < least) {
       least = length;
       best = mu;

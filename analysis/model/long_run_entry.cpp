@@ -1,7 +1,7 @@
 #include "analysis/model/long_run_entry.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +14,7 @@
 #include "analysis/model/filter_step.hpp"
 #include "analysis/model/map_bound.hpp"
 #include "analysis/model/tube_models.hpp"
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -37,7 +38,7 @@ double largest_in_units(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   }
   Eigen::MatrixXd x = root.matrixL().solve(a);
   x = root.matrixL().solve(x.transpose()).eval();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(x, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return rigor::largest_eigenvalue(x);
 }
 
 }  // namespace

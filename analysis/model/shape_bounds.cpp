@@ -3,11 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/search/golden_section.hpp"
 
@@ -24,8 +24,7 @@ double spectral_norm(const MatrixXd& matrix) {
     return 0.0;
   }
   const MatrixXd gram = matrix * matrix.transpose();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+  return std::sqrt(std::max(0.0, rigor::largest_eigenvalue(gram)));
 }
 
 /// Of a tensor whose rows are n x n x n arrays: with U applied to all three, as they stand.

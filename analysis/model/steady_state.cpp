@@ -1,6 +1,6 @@
 #include "analysis/model/steady_state.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +9,7 @@
 
 #include "analysis/model/periodic_run.hpp"
 #include "analysis/model/undefined_operation.hpp"
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -38,14 +39,9 @@ void find_slowest_mode(const TrackedTone& tone, const PeriodicRun& run, const Ei
   // In units of the states' size, D^-1 Phi D.
   const Eigen::VectorXd unit = size.unaryExpr([](double s) { return s > 0.0 ? s : 1.0; });
   const Eigen::MatrixXd scaled = unit.cwiseInverse().asDiagonal() * product * unit.asDiagonal();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled.transpose());
-  Eigen::Index place = 0;
-  const double radius = solver.eigenvalues().cwiseAbs().maxCoeff(&place);
+  const Eigen::MatrixXd transposed = scaled.transpose();
+  const auto [radius, mode] = rigor::dominant_mode(transposed);
   result.rate = std::exp((logarithm + std::log(radius)) / static_cast<double>(run.samples().cols()));
-  // Of a pair of complex eigenvectors only the sizes of the entries have a meaning.
-  const bool is_real = solver.eigenvalues()[place].imag() == 0.0;
-  const Eigen::VectorXcd vector = solver.eigenvectors().col(place);
-  const Eigen::VectorXd mode = is_real ? Eigen::VectorXd(vector.real()) : Eigen::VectorXd(vector.cwiseAbs());
   Eigen::Index largest = 0;
   mode.cwiseAbs().maxCoeff(&largest);
   result.mode = mode / mode[largest];

@@ -1,10 +1,12 @@
 #include "analysis/quadrature/true_phase/cell_cover.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
 #include "analysis/quadrature/true_phase/ellipsoid_search.hpp"
+#include "analysis/rigor/decompositions.hpp"
 
 namespace veritrack::quadrature {
 
@@ -19,10 +21,11 @@ Matrix3d absolute(const Matrix3d& difference, const Matrix3d& covariance) {
   constexpr double kEverywhere = 0.4;
   const Matrix3d root = covariance.llt().matrixL();
   const Matrix3d inverse = root.inverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(inverse * difference * inverse.transpose());
-  const Eigen::Vector3d sizes = solver.eigenvalues().cwiseAbs();
+  const Matrix3d seen = inverse * difference * inverse.transpose();
+  const rigor::Eigensystem system = rigor::symmetric_eigensystem(seen);
+  const Eigen::Vector3d sizes = system.values.cwiseAbs();
   const Eigen::Vector3d widened = sizes.array() + kEverywhere * sizes.maxCoeff();
-  const Matrix3d basis = root * solver.eigenvectors();
+  const Matrix3d basis = root * system.vectors;
   return basis * widened.asDiagonal() * basis.transpose();
 }
 
@@ -109,10 +112,10 @@ std::optional<CellNumbers> numbers_for(const trackers::ToneModel<double>& design
       !is_inside_when_turned(cell.lowest, set.lowest, box.sides[2], true)) {
     return std::nullopt;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> ratio((cell.highest - cell.lowest) / 2.0,
-                                                                 set.inverse, Eigen::EigenvaluesOnly);
+  const Matrix3d half = (cell.highest - cell.lowest) / 2.0;
+  const double ratio = rigor::pencil_eigensystem(half, set.inverse).values(2);
   for (const double share : kShares) {
-    cell.lambda = stored(share / ratio.eigenvalues()(2));
+    cell.lambda = stored(share / ratio);
     cell.mu = stored(kAboveOne / (cell.lambda * design.r * design.r));
     if (error_form_is_positive(design, set, cell, box)) {
       return cell;

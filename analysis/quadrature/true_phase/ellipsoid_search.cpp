@@ -1,12 +1,13 @@
 #include "analysis/quadrature/true_phase/ellipsoid_search.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "analysis/rigor/decompositions.hpp"
 
 namespace veritrack::quadrature {
 
@@ -74,7 +75,7 @@ class Search {
     gain_ = gain_at(question.design, steady_, 0.0, 0.0);
     closed_loop_ = transition(0.0, 0.0);
     closed_loop_ -= gain_ * closed_loop_.topRows<2>().eval();
-    least_kappa2_ = std::pow(closed_loop_.eigenvalues().cwiseAbs().maxCoeff(), 2);
+    least_kappa2_ = std::pow(rigor::spectral_radius(closed_loop_), 2);
     wide_ = accumulated(closed_loop_, steady_, 1.0);
     wide_ *= steady_.norm() / wide_.norm();
     const double length = 1.0 + question.amplitude_error;

@@ -1,8 +1,9 @@
 #include "analysis/quadrature/true_phase/steady_bounds.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include "analysis/quadrature/true_phase/ellipsoid_search.hpp"
+#include "analysis/rigor/decompositions.hpp"
 
 namespace veritrack::quadrature {
 
@@ -28,8 +29,7 @@ std::optional<SteadyBounds> steady_bounds(const trackers::ToneModel<double>& des
   if (!lower_form_is_positive(design, set, cell, no_error)) {
     return std::nullopt;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(highest, Eigen::EigenvaluesOnly);
-  bounds.least_size = stored(0.5 * solver.eigenvalues()(0));
+  bounds.least_size = stored(0.5 * rigor::least_eigenvalue(highest));
   if (!(bounds.least_size > 0.0)) {
     return std::nullopt;
   }

@@ -21,12 +21,13 @@ def including(*headers):
 TEXTS = {
     "main.cpp": "#include <arb.h>\n\n" + including("registry.hpp"),
     "registry.hpp": including(),
-    "registry.cpp": including("registry.hpp", "a/a.hpp", "b/b.hpp"),
-    "a/a.hpp": including("numbers.hpp"),
+    "registry.cpp": including("registry.hpp", "trackers.def"),
+    "trackers.def": "// Those that are known.\nCHECKER_TRACKER(a)\nCHECKER_TRACKER(b)\n",
+    "a/a.hpp": including("numbers.hpp") + "Kind a_tracker();\n",
     "a/a.cpp": including("a/a.hpp", "a/more.hpp"),
     "a/more.hpp": including(),
     "a/much_more.cpp": including("a/more.hpp"),  # no header of its name
-    "b/b.hpp": including("numbers.hpp"),
+    "b/b.hpp": including("numbers.hpp") + "Kind b_tracker();\n",
     "numbers.hpp": including(),
 }
 
@@ -46,13 +47,14 @@ class WhatToRead(unittest.TestCase):
         self.assertEqual(closure({}), sorted(TEXTS))
 
     def test_what_a_file_chooses(self):
-        self.assertEqual(closure({"registry.cpp": ["a/a.hpp"]}), sorted(TEXTS.keys() - {"b/b.hpp"}))
-        self.assertEqual(closure({"registry.cpp": ["b/b.hpp"]}),
-                         ["b/b.hpp", "main.cpp", "numbers.hpp", "registry.cpp", "registry.hpp"])
+        self.assertEqual(closure({"trackers.def": ["a/a.hpp"]}), sorted(TEXTS.keys() - {"b/b.hpp"}))
+        self.assertEqual(closure({"trackers.def": ["b/b.hpp"]}),
+                         ["b/b.hpp", "main.cpp", "numbers.hpp", "registry.cpp", "registry.hpp", "trackers.def"])
+        self.assertEqual(closure({"a/a.cpp": ["a/a.hpp"]}), sorted(TEXTS.keys() - {"a/more.hpp", "a/much_more.cpp"}))
 
-    def test_a_choice_that_is_not_included(self):
-        with self.assertRaisesRegex(ValueError, "registry.cpp does not include c/c.hpp"):
-            closure({"registry.cpp": ["c/c.hpp"]})
+    def test_a_choice_that_is_not_there(self):
+        with self.assertRaisesRegex(ValueError, "trackers.def does not need c/c.hpp"):
+            closure({"trackers.def": ["c/c.hpp"]})
 
     def test_a_unit_of_no_header(self):
         self.assertEqual(what_to_read.unowned(TEXTS), [])

@@ -80,7 +80,7 @@ std::optional<std::array<double, kParts>> soon_found(
 }  // namespace
 
 double proposed_split(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v) {
-  if (v.size() == 0 || x.size() == 0 || x.rows() > kMostRows) {
+  if (v.size() == 0 || x.size() == 0 || x.rows() > rigor::kMostSmallRows) {
     return 0.5;
   }
   if (const auto shares = soon_found<2>({&x, &v})) {
@@ -97,7 +97,7 @@ double proposed_split(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v) {
 
 std::array<double, 3> proposed_shares(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v,
                                       const Eigen::MatrixXd& w) {
-  if (x.size() == 0 || v.size() == 0 || w.size() == 0 || x.rows() > kMostRows) {
+  if (x.size() == 0 || v.size() == 0 || w.size() == 0 || x.rows() > rigor::kMostSmallRows) {
     return {1.0, 1.0, 1.0};
   }
   if (const auto shares = soon_found<3>({&x, &v, &w})) {

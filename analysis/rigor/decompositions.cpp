@@ -7,9 +7,7 @@ namespace veritrack::rigor {
 
 namespace {
 
-using Matrix = Eigen::Ref<const Eigen::MatrixXd>;
-
-SmallMatrix small(const Matrix& matrix) {
+SmallMatrix small(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   if (matrix.rows() > kMostSmallRows || matrix.rows() != matrix.cols()) {
     throw std::length_error("an eigensystem is found of square matrices of up to 20 rows");
   }
@@ -18,7 +16,7 @@ SmallMatrix small(const Matrix& matrix) {
 
 /// The function of the eigenvalues of a symmetric matrix.
 template <typename Function>
-double of_values(const Matrix& symmetric, const Function& function) {
+double of_values(const Eigen::Ref<const Eigen::MatrixXd>& symmetric, const Function& function) {
   if (symmetric.rows() <= kMostSmallRows) {
     return function(
         Eigen::SelfAdjointEigenSolver<SmallMatrix>(symmetric, Eigen::EigenvaluesOnly).eigenvalues());

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/search/running_statistics.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/search/running_statistics.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 #include "trackers/signals/random.hpp"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "analysis/search/running_statistics.hpp"
 #include "analysis/kkl_observer/kkl_caption_window.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/search/running_statistics.hpp"
 #include "trackers/kkl_observer/adaptive_oscillator_observer.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 

@@ -3,8 +3,8 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/dual.hpp"
 #include "analysis/theorems/comparison.hpp"
-#include "papers/claims/design_paper_claims.hpp"
 #include "analysis/theorems/theorem_2_9_feasibility.hpp"
+#include "papers/claims/design_paper_claims.hpp"
 
 namespace veritrack::theorems {
 

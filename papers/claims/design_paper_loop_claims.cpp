@@ -5,8 +5,8 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/theorems/comparison.hpp"
-#include "papers/claims/design_paper_claims.hpp"
 #include "analysis/theorems/steady_loop.hpp"
+#include "papers/claims/design_paper_claims.hpp"
 
 namespace veritrack::theorems {
 

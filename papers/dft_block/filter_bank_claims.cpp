@@ -1,10 +1,10 @@
 #include <string>
 #include <utility>
 
-#include "papers/dft_block/thesis_claims.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/theorems/comparison.hpp"
+#include "papers/dft_block/thesis_claims.hpp"
 
 namespace veritrack::dft_block {
 

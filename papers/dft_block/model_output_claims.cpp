@@ -2,11 +2,11 @@
 #include <cstddef>
 #include <string>
 
-#include "papers/dft_block/thesis_claims.hpp"
 #include "analysis/dft_block/tone_sums.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/theorems/comparison.hpp"
+#include "papers/dft_block/thesis_claims.hpp"
 
 namespace veritrack::dft_block {
 

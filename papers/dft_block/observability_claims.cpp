@@ -3,11 +3,11 @@
 #include <string>
 
 #include "analysis/dft_block/block_map.hpp"
-#include "papers/dft_block/thesis_claims.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/theorems/comparison.hpp"
+#include "papers/dft_block/thesis_claims.hpp"
 
 namespace veritrack::dft_block {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "papers/experiments/repeated_runs.hpp"
-#include "analysis/search/running_statistics.hpp"
 #include "analysis/search/maximize.hpp"
+#include "analysis/search/running_statistics.hpp"
+#include "papers/experiments/repeated_runs.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 #include "trackers/signals/random.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
-#include "papers/experiments/repeated_runs.hpp"
 #include "analysis/search/maximize.hpp"
+#include "papers/experiments/repeated_runs.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/signals/test_signals.hpp"
 

@@ -5,14 +5,12 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "papers/dft_block/lock_claims.hpp"
-#include "papers/dft_block/thesis_claims.hpp"
-#include "papers/kkl_observer/injectivity_claims.hpp"
-#include "papers/kkl_observer/paper_sentences.hpp"
-#include "papers/regulator/limit_claims.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "papers/single_channel/paper_sentences.hpp"
-#include "papers/single_channel/printed_recursion_claims.hpp"
+#include "certificates/design/design_reader.hpp"
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/document/tracker_kind.hpp"
+#include "certificates/help/texts.hpp"
 #include "papers/claims/block_transform_claims.hpp"
 #include "papers/claims/design_paper_claims.hpp"
 #include "papers/claims/regulator_claims.hpp"
@@ -23,11 +21,13 @@
 #include "papers/claims/stability_lemma_claims.hpp"
 #include "papers/claims/tracker_theory_claims.hpp"
 #include "papers/claims/vibration_loop_claims.hpp"
-#include "certificates/design/design_reader.hpp"
-#include "certificates/document/certificate.hpp"
-#include "certificates/document/markdown_text.hpp"
-#include "certificates/document/tracker_kind.hpp"
-#include "certificates/help/texts.hpp"
+#include "papers/dft_block/lock_claims.hpp"
+#include "papers/dft_block/thesis_claims.hpp"
+#include "papers/kkl_observer/injectivity_claims.hpp"
+#include "papers/kkl_observer/paper_sentences.hpp"
+#include "papers/regulator/limit_claims.hpp"
+#include "papers/single_channel/paper_sentences.hpp"
+#include "papers/single_channel/printed_recursion_claims.hpp"
 
 namespace veritrack::reports::ledger {
 

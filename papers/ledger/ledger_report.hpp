@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "papers/ledger/ledger.hpp"
-#include "reports/page/renderings.hpp"
 #include "papers/reproductions/reproduction.hpp"
+#include "reports/page/renderings.hpp"
 
 namespace veritrack::reports::ledger {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <numeric>
 
-#include "papers/limits/posterior_bound.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "papers/limits/posterior_bound.hpp"
 
 namespace veritrack::limits {
 

@@ -1,8 +1,8 @@
 #include <string>
 
-#include "papers/regulator/limit_claims.hpp"
 #include "analysis/regulator/printed_limits.hpp"
 #include "analysis/theorems/comparison.hpp"
+#include "papers/regulator/limit_claims.hpp"
 
 namespace veritrack::regulator {
 

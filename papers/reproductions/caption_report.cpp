@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "papers/experiments/repeated_runs.hpp"
 #include "analysis/kkl_observer/kkl_caption_window.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "papers/experiments/repeated_runs.hpp"
 #include "papers/reproductions/line_panels.hpp"
 #include "papers/reproductions/observer_printed.hpp"
 

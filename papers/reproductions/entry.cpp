@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "papers/experiments/repeated_runs.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "papers/experiments/repeated_runs.hpp"
 #include "papers/reproductions/seed_share.hpp"
 
 namespace veritrack::reports {

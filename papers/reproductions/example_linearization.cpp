@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "papers/single_channel/published_examples.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "papers/single_channel/published_examples.hpp"
 
 namespace veritrack::reports {
 

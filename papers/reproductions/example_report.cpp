@@ -8,9 +8,9 @@
 
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
-#include "reports/gnuplot.hpp"
 #include "papers/reproductions/example_linearization.hpp"
 #include "papers/reproductions/seed_share.hpp"
+#include "reports/gnuplot.hpp"
 
 namespace veritrack::reports {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "papers/single_channel/published_examples.hpp"
-#include "reports/page/renderings.hpp"
 #include "papers/reproductions/reproduction.hpp"
 #include "papers/reproductions/written_report.hpp"
+#include "papers/single_channel/published_examples.hpp"
+#include "reports/page/renderings.hpp"
 
 namespace veritrack::reports {
 

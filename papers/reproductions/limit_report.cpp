@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "papers/limits/tone_bounds.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
+#include "papers/limits/tone_bounds.hpp"
 #include "papers/reproductions/limit_figures.hpp"
 
 namespace veritrack::reports {

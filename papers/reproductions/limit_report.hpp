@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "papers/limits/limit_study.hpp"
-#include "reports/page/renderings.hpp"
 #include "papers/reproductions/written_report.hpp"
+#include "reports/page/renderings.hpp"
 
 namespace veritrack::reports {
 

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "papers/experiments/oscillator_observers.hpp"
 #include "certificates/document/markdown_text.hpp"
-#include "reports/line_styles.hpp"
+#include "papers/experiments/oscillator_observers.hpp"
 #include "papers/reproductions/line_panels.hpp"
 #include "papers/reproductions/observer_printed.hpp"
+#include "reports/line_styles.hpp"
 
 namespace veritrack::reports {
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/figures.hpp"
-#include "reports/page/renderings.hpp"
 #include "papers/reproductions/entry.hpp"
 #include "papers/reproductions/written_report.hpp"
+#include "reports/figures.hpp"
+#include "reports/page/renderings.hpp"
 
 namespace veritrack::reports {
 

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "papers/experiments/repeated_runs.hpp"
-#include "reports/line_styles.hpp"
 #include "papers/reproductions/line_panels.hpp"
 #include "papers/reproductions/sonar_printed.hpp"
+#include "reports/line_styles.hpp"
 
 namespace veritrack::reports::sonar {
 

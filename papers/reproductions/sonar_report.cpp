@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "certificates/document/markdown_text.hpp"
 #include "papers/experiments/initial_estimates.hpp"
 #include "papers/experiments/repeated_runs.hpp"
-#include "certificates/document/markdown_text.hpp"
 #include "papers/reproductions/sonar_figures.hpp"
 #include "papers/reproductions/sonar_printed.hpp"
 

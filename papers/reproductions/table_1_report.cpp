@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "papers/experiments/random_starts.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "papers/experiments/random_starts.hpp"
 #include "papers/reproductions/swept_tone_printed.hpp"
 #include "papers/reproductions/swept_tone_signal.hpp"
 

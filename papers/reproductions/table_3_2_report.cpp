@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "certificates/document/markdown_text.hpp"
-#include "reports/line_styles.hpp"
 #include "papers/reproductions/line_panels.hpp"
 #include "papers/reproductions/swept_tone_printed.hpp"
 #include "papers/reproductions/swept_tone_reports.hpp"
 #include "papers/reproductions/swept_tone_signal.hpp"
+#include "reports/line_styles.hpp"
 
 namespace veritrack::reports {
 

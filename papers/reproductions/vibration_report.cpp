@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "certificates/document/markdown_text.hpp"
 #include "papers/experiments/repeated_runs.hpp"
 #include "papers/experiments/vibration_runs.hpp"
-#include "certificates/document/markdown_text.hpp"
 #include "papers/reproductions/vibration_controllers.hpp"
 #include "papers/reproductions/vibration_figures.hpp"
 #include "papers/reproductions/vibration_printed.hpp"

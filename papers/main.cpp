@@ -55,7 +55,7 @@ int run(int argc, char** argv) {
   cli::ReproduceOptions options;
   add_reproduce_options(app, options, names_of_reports());
   bool quiet = false;
-  app.add_flag("--quiet", quiet, "no progress on standard error");
+  app.add_flag("--quiet", quiet)->group("");  // an option of all commands, which veritrack explains
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

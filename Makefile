@@ -10,7 +10,7 @@ MAKEFLAGS += --no-print-directory
 # What the checker is built with, and nothing else: five libraries and the tools.
 CHECKER_PACKAGES := g++ cmake make pkg-config libflint-arb-dev libflint-dev libmpfr-dev nlohmann-json3-dev nettle-dev \
   libtomlplusplus-dev
-BUILD_PACKAGES := $(CHECKER_PACKAGES) ninja-build libeigen3-dev coinor-libipopt-dev libnlopt-cxx-dev libcli11-dev libfmt-dev \
+BUILD_PACKAGES := $(CHECKER_PACKAGES) ninja-build libeigen3-dev coinor-libipopt-dev liblapack-dev libnlopt-cxx-dev libcli11-dev libfmt-dev \
   libtbb-dev gnuplot-nox tao-pegtl-dev libsndfile1-dev libcmark-gfm-dev libcmark-gfm-extensions-dev \
   libkainjow-mustache-dev libpugixml-dev libjs-katex
 # clang also compiles the arithmetic tests: the promise must hold under both compilers

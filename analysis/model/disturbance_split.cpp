@@ -88,7 +88,7 @@ double proposed_split(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v) {
   }
   const auto value = [&](double logit) {
     const double t = logistic(logit);
-    return rigor::largest_eigenvalue(x / t + v / (1.0 - t));
+    return rigor::largest_eigenvalue(Square(x / t + v / (1.0 - t)));
   };
   // Convex in t, so one valley in the logit.
   constexpr int kSteps = 30;
@@ -108,7 +108,8 @@ std::array<double, 3> proposed_shares(const Eigen::MatrixXd& x, const Eigen::Mat
     const double t = logistic(logit_of_x);
     const double rest = logistic(-logit_of_x);
     return lowest_of([&](double logit) {
-      return rigor::largest_eigenvalue(x / t + v / (rest * logistic(logit)) + w / (rest * logistic(-logit)));
+      return rigor::largest_eigenvalue(
+          Square(x / t + v / (rest * logistic(logit)) + w / (rest * logistic(-logit))));
     });
   };
   const double logit_of_x = lowest_of([&](double logit) { return of_others(logit).cost; }).point;

@@ -12,8 +12,8 @@ namespace veritrack::model {
 /// How tubes are proposed for a task, over a band in rad/sample.
 [[nodiscard]] BandSettings settings_of(const TrackedTone& tone, const SetTask& task, double low, double high);
 
-/// About the largest radius near `level` for which `may_hold(radius)`; 0 when there is none. With noise
-/// growth is too large for small radii, and always for large ones.
+/// About the largest radius up to 1.6 `level`, and down to 1e-4 of it, for which `may_hold(radius)`; 0 when
+/// there is none. With noise growth is too large for small radii, and always for large ones.
 template <typename Test>
 [[nodiscard]] double largest_radius(double level, const Test& may_hold) {
   double radius = 0.0;

@@ -40,6 +40,9 @@ struct Kind {
   /// A larger value is a better one.
   bool is_limit = false;
   std::vector<double Question::*> parts;
+  /// What is required first, to find the value: so much that nothing is enough, but in Gaussian noise, where
+  /// a set is searched for the probability that is required.
+  double required_first = 1e-9;
 };
 
 std::optional<double> finite(double value) {
@@ -170,7 +173,8 @@ std::vector<Kind> dear_kinds() {
          return sets.noise && sets.noise->is_proved() ? finite(sets.noise->tubes.noise) : std::nullopt;
        },
        true,
-       {&Question::noise, &Question::starts, &Question::band, &Question::amplitudes}},
+       {&Question::noise, &Question::starts, &Question::band, &Question::amplitudes},
+       10.0},
       {"quadrature with a leak",
        [](const Question& q, double required) {
          return ekf_text(kLeaking, q, 0.05, 0.04, number(5e-4 * q.noise), 0.0, 3e-4,
@@ -186,7 +190,8 @@ std::vector<Kind> dear_kinds() {
        },
        largest_noise,
        true,
-       {&Question::noise, &Question::starts, &Question::band}},
+       {&Question::noise, &Question::starts, &Question::band},
+       10.0},
       {"quadrature in Gaussian noise",
        [](const Question& q, double required) {
          return ekf_text(
@@ -196,7 +201,8 @@ std::vector<Kind> dear_kinds() {
        },
        [](const Certificate& c) { return quantity(c, "lock", "probability_of_losing_lock"); },
        false,
-       {&Question::noise, &Question::starts, &Question::band, &Question::samples}},
+       {&Question::noise, &Question::starts, &Question::band, &Question::samples},
+       0.05},
   };
 }
 
@@ -234,10 +240,9 @@ void check_pairs(const Kind& kind, std::int64_t pairs, std::uint64_t stream) {
         }
       }
     }
-    // What can be proved of the harder one when nothing is enough, and a little less than that.
-    constexpr double kNothing = 1e-9;
+    // What can be proved of the harder one, and a little less than that.
     const double slack = 1.0 + 0.1 * random.uniform();
-    const auto value = kind.value(certified(kind, hard, kind.is_limit ? 10.0 : kNothing));
+    const auto value = kind.value(certified(kind, hard, kind.required_first));
     if (!value) {
       continue;
     }

@@ -18,26 +18,33 @@ using rigor::Verdict;
 using Cells = std::vector<sets::QuadratureTube>;
 
 /// The share of level 1 into which samples of a proposed set may map it: what is left is for the proof.
-constexpr double kTarget = 0.975;
-/// rad/sample: the narrowest pieces are a cell wide.
-constexpr double kCellWidth = 0.05;
+/// Shapes that leave less are for more noise and seldom proved.
+constexpr double kTarget = 0.96;
+constexpr double kLastTarget = 0.975;
+/// rad/sample: the narrowest pieces are a cell wide. Its multiples are exact.
+constexpr double kCellWidth = 0.0625;
+
+/// The bias grows with the frequency.
+bool cells_end_hard(const Cells& cells) {
+  return std::fabs(cells.back().parameter_center) >= std::fabs(cells.front().parameter_center);
+}
 
 class PieceSearch {
  public:
-  /// `harder` are cells at higher frequencies, for which nothing is to be proved: what is tolerated there is
+  /// `harder` is a cell at a higher frequency, for which nothing is to be proved: what is tolerated there is
   /// tolerated here, so that the search begins from there as well.
-  PieceSearch(const sets::ContractionQuestion& question, Cells cells, const Cells& harder,
-              double SteadyRequest::*which)
+  PieceSearch(const sets::ContractionQuestion& question, Cells cells,
+              const std::optional<sets::QuadratureTube>& harder, double SteadyRequest::*which)
       : question_(question), cells_(std::move(cells)), which_(which) {
     request_.design = {midpoint(question.design.q1), midpoint(question.design.q2),
                        midpoint(question.design.r), midpoint(question.design.epsilon)};
     request_.noise = which == &SteadyRequest::noise ? 0.0 : question.noise.upper();
     request_.evaluations = question.search_evaluations;
-    for (const sets::QuadratureTube& cell : harder) {
-      fit_to({cell});
+    if (harder) {
+      fit_to({*harder});
       request_.steady = {request_.steady.back()};  // the hard end decides
       if (auto limit = propose_steady_limit(request_, which_, kTarget)) {
-        harder_.push_back(*std::move(limit));
+        known_.push_back(*std::move(limit));
       }
     }
   }
@@ -72,10 +79,7 @@ class PieceSearch {
   }
 
  private:
-  /// The bias grows with the frequency.
-  [[nodiscard]] bool hard_end_is_last() const {
-    return std::fabs(cells_.back().parameter_center) >= std::fabs(cells_.front().parameter_center);
-  }
+  [[nodiscard]] bool hard_end_is_last() const { return cells_end_hard(cells_); }
 
   /// `width` cells after the first `done` from the hard end, in their order.
   [[nodiscard]] Cells part_of(std::size_t done, std::size_t width) const {
@@ -121,27 +125,29 @@ class PieceSearch {
   [[nodiscard]] std::optional<SteadySet> set_for_size(const Cells& part) {
     fit_to(part);
     request_.*which_ = size_;
-    const auto limit = propose_steady_size(request_, which_, kTarget, point_);
-    auto set = limit ? verified(part, *limit) : std::nullopt;
-    if (set) {
-      point_ = limit->point;
+    for (const double target : {kTarget, kLastTarget}) {
+      const auto limit = propose_steady_size(request_, which_, target, point_);
+      auto set = limit ? verified(part, *limit) : std::nullopt;
+      if (set) {
+        point_ = limit->point;
+        return set;
+      }
     }
-    return set;
+    return std::nullopt;
   }
 
   /// As large as can be verified; the others need not be larger.
   [[nodiscard]] std::optional<SteadySet> largest_set(const Cells& part, double known) {
     fit_to(part);
-    for (const double target : {kTarget, 0.96, 0.93, 0.9}) {
+    for (const double target : {kTarget, kLastTarget, 0.93, 0.9}) {
       request_.*which_ = 0.0;
-      auto limit =
-          propose_steady_limit(request_, which_, target, size_ > 0.0 ? std::vector<SteadyLimit>() : harder_);
+      auto limit = propose_steady_limit(request_, which_, target, known_);
       if (!limit) {
         continue;
       }
       const double most = size_ > 0.0 ? std::min(size_, limit->size) : limit->size;
       const rigor::Matrix<3> metric = limit->metric;
-      for (const double share : {1.0, 0.97, 0.94, 0.91, 0.88}) {
+      for (const double share : {1.0, 0.98, 0.96, 0.94, 0.91, 0.88}) {
         const double size = share * most;
         if (!(size > known)) {
           return std::nullopt;
@@ -153,6 +159,7 @@ class PieceSearch {
         if (auto set = verified(part, *limit)) {
           size_ = size;
           point_ = limit->point;
+          known_ = {*limit};
           return set;
         }
       }
@@ -164,34 +171,40 @@ class PieceSearch {
   Cells cells_;
   double SteadyRequest::*which_;
   SteadyRequest request_;
-  std::vector<SteadyLimit> harder_;
-  double size_ = 0.0;  ///< of all pieces so far
+  std::vector<SteadyLimit> known_;  ///< where it is as hard or harder
+  double size_ = 0.0;               ///< of all pieces so far
   Eigen::VectorXd point_;
 };
 
-/// Cells at frequencies beyond the hard end of the band: at multiples of a step, whatever the band is.
-Cells beyond(const sets::ContractionQuestion& question, const Interval& band) {
-  constexpr double kStep = 0.25;  // rad/sample
-  constexpr int kMost = 1;        // each costs a search, in every certificate with a leak
+/// The cells of the least band that holds `band` and ends at multiples of their width, so that a narrower
+/// band has some of the cells of a wider one; the cells of the band itself where such a band has no steady
+/// states.
+sets::LockBranch aligned_cells(const trackers::ToneModel<Interval>& design, const Interval& band) {
+  const auto cells = [&](double from, double to) {
+    return sets::verify_lock_branch(design, hull(Interval(from), Interval(to)), {.largest = kCellWidth});
+  };
+  sets::LockBranch aligned = cells(kCellWidth * std::floor(band.lower() / kCellWidth),
+                                   kCellWidth * std::ceil(band.upper() / kCellWidth));
+  return aligned.verdict == Verdict::proved ? aligned : cells(band.lower(), band.upper());
+}
+
+/// The cell beyond the hard end of the cells, if it has steady states.
+std::optional<sets::QuadratureTube> cell_beyond(const trackers::ToneModel<Interval>& design,
+                                                const Cells& cells) {
   constexpr double kNyquist = 3.14;
-  const bool is_upper = std::fabs(band.upper()) >= std::fabs(band.lower());
-  const double sign = is_upper ? 1.0 : -1.0;
-  const double end = sign * (is_upper ? band.upper() : band.lower());
-  Cells cells;
-  for (int k = 0; k < kMost; ++k) {
-    const double frequency = kStep * (std::floor(end / kStep) + 1.0 + k);
-    if (!(frequency < kNyquist)) {
-      break;
-    }
-    const sets::LockBranch branch = sets::verify_lock_branch(
-        question.design, hull(Interval(sign * (frequency - kCellWidth)), Interval(sign * frequency)),
-        {.largest = kCellWidth});
-    if (branch.verdict != Verdict::proved || branch.cells.empty()) {
-      break;
-    }
-    cells.push_back(is_upper ? branch.cells.back() : branch.cells.front());
+  const Interval first = cells.front().parameter;
+  const Interval last = cells.back().parameter;
+  const bool is_above = cells_end_hard(cells);
+  const Interval band = is_above ? Interval::from_bounds(last.upper(), last.upper() + kCellWidth)
+                                 : Interval::from_bounds(first.lower() - kCellWidth, first.lower());
+  if (!(band.upper() < kNyquist && band.lower() > -kNyquist)) {
+    return std::nullopt;
   }
-  return cells;
+  const sets::LockBranch branch = sets::verify_lock_branch(design, band, {.largest = kCellWidth});
+  if (branch.verdict != Verdict::proved || branch.cells.empty()) {
+    return std::nullopt;
+  }
+  return is_above ? branch.cells.back() : branch.cells.front();
 }
 
 }  // namespace
@@ -199,12 +212,14 @@ Cells beyond(const sets::ContractionQuestion& question, const Interval& band) {
 std::vector<SteadyPiece> search_steady_pieces(const sets::ContractionQuestion& question,
                                               const sets::LockBranch& branch, double SteadyRequest::*size,
                                               double known) {
-  const sets::LockBranch narrow =
-      sets::verify_lock_branch(question.design, branch.band, {.largest = kCellWidth});
-  if (narrow.verdict != Verdict::proved || narrow.cells.empty()) {
+  if (branch.verdict != Verdict::proved) {
     return {};
   }
-  return PieceSearch(question, narrow.cells, beyond(question, branch.band), size).cover(known);
+  const sets::LockBranch cells = aligned_cells(question.design, branch.band);
+  if (cells.verdict != Verdict::proved || cells.cells.empty()) {
+    return {};
+  }
+  return PieceSearch(question, cells.cells, cell_beyond(question.design, cells.cells), size).cover(known);
 }
 
 }  // namespace veritrack::quadrature

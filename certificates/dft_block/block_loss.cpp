@@ -69,8 +69,9 @@ std::optional<Claim> losing_lock(const char* id, const theorems::Derivation& fou
   claim.id = id;
   claim.verdict = Verdict::proved;
   claim.evidence = {*probability, *error, *rms};
+  claim.hypotheses = block_hypotheses(tables);
   claim.statement =
-      block_hypotheses(tables) +
+      claim.hypotheses +
       fmt::format(
           "the probability that within the first {} blocks the offset error of an estimate exceeds {} bins "
           "is at most {}; while the filter is in lock, the root mean square of that error is at most {} bins "

@@ -137,6 +137,7 @@ class BlockClaims {
   void add_guarantee() {
     Claim claim;
     claim.id = "dft-block/guarantee";
+    claim.hypotheses = hypotheses_;
     claim.statement = hypotheses_;
     const theorems::Quantity* ever = quantity("offset_error_bound");
     const theorems::Quantity* last = quantity("ultimate_offset_error");

@@ -10,7 +10,7 @@ const TrackerKind& dft_block_kind() {
   static const TrackerKind kind{.name = "dft-block-ekf",
                                 .design_json = dft_block_design_json,
                                 .certify = certify_dft_block,
-                                .summary = dft_block_summary,
+                                .answers = dft_block_answers,
                                 .sections = dft_block_sections,
                                 .track = track_dft_block};
   return kind;

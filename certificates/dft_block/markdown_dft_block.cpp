@@ -152,18 +152,17 @@ std::string block_coverage(bool is_gaussian) {
 
 }  // namespace
 
-std::string dft_block_summary(const Certificate& certificate) {
-  std::string text;
+std::vector<const Claim*> dft_block_answers(const Certificate& certificate) {
+  std::vector<const Claim*> found;
   for (const char* id : {"dft-block/guarantee", "dft-block/losing-lock", "dft-block/lowest-snr",
                          "dft-block/every-start-locks"}) {
     const auto claim = std::find_if(certificate.claims.begin(), certificate.claims.end(),
                                     [id](const Claim& one) { return one.id == id; });
     if (claim != certificate.claims.end()) {
-      text += fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
-                          claim->verdict != rigor::Verdict::undecided ? "Why" : "Why not", claim->reason);
+      found.push_back(&*claim);
     }
   }
-  return text;
+  return found;
 }
 
 std::string dft_block_sections(const Certificate& certificate, const MarkdownOptions& options) {

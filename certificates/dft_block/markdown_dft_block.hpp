@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown.hpp"
@@ -9,7 +10,7 @@
 namespace veritrack::certificates {
 
 /// See TrackerKind.
-[[nodiscard]] std::string dft_block_summary(const Certificate& certificate);
+[[nodiscard]] std::vector<const Claim*> dft_block_answers(const Certificate& certificate);
 [[nodiscard]] std::string dft_block_sections(const Certificate& certificate, const MarkdownOptions& options);
 
 }  // namespace veritrack::certificates

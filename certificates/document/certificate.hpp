@@ -23,8 +23,10 @@ namespace veritrack::certificates {
 
 /// A statement about the design, decided.
 struct Claim {
-  std::string id;           ///< e.g. "ekf/frequency-error-bound"
-  std::string statement;    ///< one sentence with all its hypotheses, with units
+  std::string id;         ///< e.g. "ekf/frequency-error-bound"
+  std::string statement;  ///< one sentence with all its hypotheses, with units
+  /// How the statement begins, where it says on what it rests; empty where it does so elsewhere.
+  std::string hypotheses = {};
   std::string requirement;  ///< what [require] asks, in short; empty when it does not
   rigor::Verdict verdict = rigor::Verdict::undecided;
   bool required = false;  ///< is in [require] of the design file

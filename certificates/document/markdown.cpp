@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "analysis/rigor/versions.hpp"
+#include "certificates/document/first_page.hpp"
 #include "certificates/document/markdown_formal_proofs.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/tracker_kind.hpp"
@@ -51,12 +52,11 @@ bool concerns_publication(const Claim& claim) {
 
 /// The decided sentences of that kind as the checker composes them anew, without those at the top.
 std::string sentences(const Certificate& certificate, bool on_publications) {
-  const std::string top = on_publications ? "" : kind_of(certificate.design).summary(certificate);
+  const std::vector<const Claim*> top = kind_of(certificate.design).answers(certificate);
   std::string text;
   for (const Claim& claim : certificate.claims) {
     if (claim.verdict != Verdict::undecided && concerns_publication(claim) == on_publications &&
-        top.find(fmt::format("{}: {}\n", markdown::verdict(claim.verdict), claim.statement)) ==
-            std::string::npos) {
+        (on_publications || std::find(top.begin(), top.end(), &claim) == top.end())) {
       text += fmt::format("- {} `{}`: {}\n", markdown::verdict(claim.verdict), claim.id, claim.statement);
     }
   }
@@ -202,7 +202,8 @@ std::string to_markdown(const Certificate& certificate, const MarkdownOptions& o
                                     "and another run may reach more or less.\n\n"
                                   : "";
   return markdown::plain("# " + headline(certificate, options.verification) + "\n\n" + stopped +
-                         kind.summary(certificate) +
+                         first_page(kind.answers(certificate)) +
+                         (kind.remarks == nullptr ? "" : kind.remarks(certificate)) +
                          verification_paragraph(certificate, options.verification) +
                          requirement_section(certificate) + kind.sections(certificate, options) +
                          checker_section(certificate, options) + formal_proofs_section(certificate) +

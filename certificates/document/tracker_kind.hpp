@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/code_language.hpp"
@@ -25,13 +26,15 @@ struct TrackerKind {
   Json (*design_json)(const Design& design);
   /// Adds everything that can be said of the design. Needs the upward mode.
   void (*certify)(Certificate& certificate, const CertifyProgress& progress);
-  /// The answer in a few sentences, above what was required: a line for each claim that belongs there, which
-  /// begins with the verdict and goes on with nothing but the claim's statement, and what else is told.
-  std::string (*summary)(const Certificate& certificate);
+  /// The claims that answer, on the first page.
+  std::vector<const Claim*> (*answers)(const Certificate& certificate);
   /// The sections between what was required and how to reproduce it.
   std::string (*sections)(const Certificate& certificate, const MarkdownOptions& options);
 
   // What not every kind has: null where it has none.
+
+  /// What the first page reports beside the answers.
+  std::string (*remarks)(const Certificate& certificate) = nullptr;
 
   /// Adds, of everything that `certify` adds, what publications say: the derivations and claims that
   /// theorems::find_paper_place knows. Takes a second at most. Needs the upward mode.

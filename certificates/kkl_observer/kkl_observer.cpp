@@ -91,7 +91,8 @@ Claim bound_claim(const Certificate& certificate, const std::string& id, const s
   Claim claim;
   claim.id = id;
   claim.requirement = requirement;
-  claim.statement = hypotheses(kkl_observer_tables(certificate.design)) + requirement;
+  claim.hypotheses = hypotheses(kkl_observer_tables(certificate.design));
+  claim.statement = claim.hypotheses + requirement;
   claim.required = true;
   claim.position = required.position;
   const std::optional<Interval> bound = proved_kkl_bound(certificate, name);

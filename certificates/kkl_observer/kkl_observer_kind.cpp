@@ -18,7 +18,7 @@ const TrackerKind& kkl_observer_kind() {
   static const TrackerKind kind{.name = "kkl-observer",
                                 .design_json = kkl_observer_design_json,
                                 .certify = certify_kkl_observer,
-                                .summary = kkl_observer_summary,
+                                .answers = kkl_observer_answers,
                                 .sections = kkl_observer_sections,
                                 .published_results = kkl_observer_published_results,
                                 .published = kkl_observer_published,

@@ -106,14 +106,14 @@ std::string coverage_section(const KklObserverTables& tables) {
 
 }  // namespace
 
-std::string kkl_observer_summary(const Certificate& certificate) {
-  std::string text;
+std::vector<const Claim*> kkl_observer_answers(const Certificate& certificate) {
+  std::vector<const Claim*> found;
   for (const Claim& claim : certificate.claims) {
     if (claim.required && claim.verdict != rigor::Verdict::undecided) {
-      text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
+      found.push_back(&claim);
     }
   }
-  return text;
+  return found;
 }
 
 std::string kkl_observer_sections(const Certificate& certificate, const MarkdownOptions& options) {

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown.hpp"
 
 namespace veritrack::certificates {
 
-/// The sentences of [require] that are decided, a line each.
-[[nodiscard]] std::string kkl_observer_summary(const Certificate& certificate);
+/// The claims of [require] that are decided.
+[[nodiscard]] std::vector<const Claim*> kkl_observer_answers(const Certificate& certificate);
 
 /// Design, assumptions, what is certified of them, figures and coverage.
 [[nodiscard]] std::string kkl_observer_sections(const Certificate& certificate,

@@ -185,17 +185,20 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
 
 }  // namespace
 
-std::string model_summary(const Certificate& certificate) {
-  std::string text;
+std::vector<const Claim*> model_answers(const Certificate& certificate) {
+  std::vector<const Claim*> found;
   for (const Claim& claim : certificate.claims) {
     if (!claim.required && claim.verdict != rigor::Verdict::undecided) {
-      text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
+      found.push_back(&claim);
     }
   }
-  return !text.empty()
-             ? text
-             : "Nothing was proved for the band, nor for a part of it. The reasons are under \"The certified "
-               "sets\".\n\n";
+  return found;
+}
+
+std::string model_remarks(const Certificate& certificate) {
+  return model_answers(certificate).empty() ? "Nothing was proved for the band, nor for a part of it. The "
+                                              "reasons are under \"The certified sets\".\n\n"
+                                            : "";
 }
 
 std::string model_sections(const Certificate& certificate, const MarkdownOptions& options) {

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown.hpp"
 
 namespace veritrack::certificates {
 
-/// What is told and PROVED, a line each; or that nothing is.
-[[nodiscard]] std::string model_summary(const Certificate& certificate);
+/// What is decided and not required.
+[[nodiscard]] std::vector<const Claim*> model_answers(const Certificate& certificate);
+/// That there is nothing of it, where there is not.
+[[nodiscard]] std::string model_remarks(const Certificate& certificate);
 
 /// The design, the certified sets, bias and ripple, the recursion, and what is covered. Runs the attack of
 /// analysis/model/falsifier.hpp once. Sets its own rounding mode.

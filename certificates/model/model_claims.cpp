@@ -183,6 +183,7 @@ class ModelClaims {
   static Claim told(const char* id, const std::string& hypotheses) {
     Claim claim;
     claim.id = id;
+    claim.hypotheses = hypotheses;
     claim.statement = hypotheses;
     claim.verdict = Verdict::proved;
     return claim;
@@ -246,11 +247,12 @@ class ModelClaims {
     if (set.tubes.noise > 0.0) {
       const std::string noise = below(set.tubes.noise);
       claim.values.emplace_back("noise", noise);
-      claim.statement += fmt::format(", with noise of at most {}", noise);
+      claim.hypotheses += fmt::format(", with noise of at most {}", noise);
     } else {
-      claim.statement += ", without noise";
+      claim.hypotheses += ", without noise";
     }
-    claim.statement +=
+    claim.statement =
+        claim.hypotheses +
         fmt::format(", the tracker tolerates a slew up to {}{}: a certified invariant set exists{}",
                     units_.slew(slew), by_set(set, "slew"), in_lock(set));
     add_part(claim, limit.part);

@@ -54,11 +54,11 @@ Claim told_of(const char* id, const ModelLock& lock, std::string hypotheses, con
   const std::string error = shown(lock.frequency_error);
   const std::string probability = shown(lock.probability);
   claim.values = {{"frequency_error", error}, {"probability", probability}};
+  claim.hypotheses = std::move(hypotheses);
   claim.statement = fmt::format(
       "{}, the probability that the tracker loses its lock {}, its frequency error exceeding {} at one of "
       "them, is at most {}.",
-      std::move(hypotheses), stretch_of(assume), FrequencyUnits(assume.sample_rate).at_most(error),
-      probability);
+      claim.hypotheses, stretch_of(assume), FrequencyUnits(assume.sample_rate).at_most(error), probability);
   return claim;
 }
 

@@ -96,7 +96,8 @@ Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerm
   const theorems::Quantity* reach = theorems::applicable_quantity(derivation, "lock_frequency_error");
   Claim claim;
   claim.id = "ekf/guarantee";
-  claim.statement = hypotheses(terms);
+  claim.hypotheses = hypotheses(terms);
+  claim.statement = claim.hypotheses;
   if (probability == nullptr || reach == nullptr || !is_lock(reach->value, terms)) {
     claim.statement += "the tracker keeps its lock with a stated probability.";
     claim.reason = open_condition(derivation);

@@ -73,10 +73,6 @@ FrequencyPromise frequency_promise(const Certificate& certificate) {
   return ekf_frequency_promise(certificate, quadrature_tables(certificate.design).assume, true);
 }
 
-std::string summary(const Certificate& certificate) {
-  return guarantee_section(certificate);
-}
-
 /// Theorem 2.9 and the other results of papers are about noise with a bound.
 std::string published(const Certificate& certificate) {
   if (quadrature_tables(certificate.design).assume.gaussian) {
@@ -105,7 +101,7 @@ const TrackerKind& quadrature_kind() {
   static const TrackerKind kind{.name = "quadrature-ekf",
                                 .design_json = quadrature_design_json,
                                 .certify = certify_quadrature,
-                                .summary = summary,
+                                .answers = guarantees,
                                 .sections = sections,
                                 .published_results = quadrature_published_results,
                                 .published = published,

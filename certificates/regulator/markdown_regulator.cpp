@@ -67,15 +67,10 @@ std::string loop_coverage() {
 
 }  // namespace
 
-std::string regulator_summary(const Certificate& certificate) {
+std::vector<const Claim*> regulator_answers(const Certificate& certificate) {
   const auto claim = std::find_if(certificate.claims.begin(), certificate.claims.end(),
                                   [](const Claim& one) { return one.id == "regulator/guarantee"; });
-  if (claim == certificate.claims.end()) {
-    return "";
-  }
-  const bool is_proved = claim->verdict == rigor::Verdict::proved;
-  return fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
-                     is_proved ? "Why" : "Why not", claim->reason);
+  return claim == certificate.claims.end() ? std::vector<const Claim*>{} : std::vector{&*claim};
 }
 
 std::string regulator_sections(const Certificate& certificate, const MarkdownOptions& options) {

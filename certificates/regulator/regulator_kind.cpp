@@ -9,7 +9,7 @@ const TrackerKind& regulator_kind() {
   static const TrackerKind kind{.name = "vibration-regulator",
                                 .design_json = regulator_design_json,
                                 .certify = certify_regulator,
-                                .summary = regulator_summary,
+                                .answers = regulator_answers,
                                 .sections = regulator_sections,
                                 .limited_in_time = true,
                                 .evidence_json = regulator_evidence_json};

@@ -153,8 +153,9 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
   const Claim* requirement = find_claim(certificate, "ekf/frequency-error-bound");
   Claim claim;
   claim.id = kGuarantee;
-  claim.statement = hypotheses(terms);
-  claim.statement += required ? requirement->requirement : "the tracker keeps its lock for ever";
+  claim.hypotheses = hypotheses(terms);
+  claim.statement =
+      claim.hypotheses + (required ? requirement->requirement : "the tracker keeps its lock for ever");
   // Without a required bound it is the lock that is kept.
   if (bound && (requirement == nullptr ? is_lock(*bound, terms) : requirement->verdict == Verdict::proved)) {
     claim.verdict = Verdict::proved;
@@ -192,9 +193,10 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
     Claim claim;
     claim.id = "ekf/invariant-set";
     claim.verdict = Verdict::proved;
+    claim.hypotheses = tone(terms, true);
     claim.statement = fmt::format(
         "{}, a certified invariant set contains frequency errors up to {} and none of {} or more{}",
-        tone(terms, true), units.at_least(found.frequency_error_radius.value, kDigits), lock_words(terms),
+        claim.hypotheses, units.at_least(found.frequency_error_radius.value, kDigits), lock_words(terms),
         found.about_steady_state ? ", measured from the steady state, which the leak biases" : "");
     claim.evidence = {found.frequency_error_radius};
     if (!has_sets_for_the_radius(certificate)) {
@@ -213,11 +215,12 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
     Claim claim;
     claim.id = "ekf/limits";
     claim.verdict = Verdict::proved;
+    claim.hypotheses = tone(terms, false);
     claim.statement = fmt::format(
         "{}, at a constant frequency the tracker tolerates noise up to {} of the amplitude, and without "
         "noise a slew "
         "up to {}: a certified invariant set exists for each, in which the frequency error stays below {}.",
-        tone(terms, false), rigor::lower_decimal(found.largest_noise.value, kDigits),
+        claim.hypotheses, rigor::lower_decimal(found.largest_noise.value, kDigits),
         units.slew(found.largest_slew.value, kDigits), lock_words(terms));
     claim.evidence = {found.largest_noise, found.largest_slew};
     claims.push_back(std::move(claim));
@@ -225,18 +228,14 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
   return claims;
 }
 
-std::string guarantee_section(const Certificate& certificate) {
-  std::string text;
+std::vector<const Claim*> guarantees(const Certificate& certificate) {
+  std::vector<const Claim*> found;
   for (const char* id : {kGuarantee, "ekf/invariant-set", "ekf/limits", "ekf/lowest-snr"}) {
     if (const Claim* claim = find_claim(certificate, id)) {
-      text += fmt::format("{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement);
-      if (!claim->reason.empty()) {
-        text +=
-            fmt::format("{}: {}\n\n", claim->verdict == Verdict::proved ? "Why" : "Why not", claim->reason);
-      }
+      found.push_back(claim);
     }
   }
-  return text;
+  return found;
 }
 
 }  // namespace veritrack::certificates

@@ -56,7 +56,7 @@ struct GuaranteeTerms {
 /// noise and slew the design tolerates ("ekf/limits"); those of the two that are proved.
 [[nodiscard]] std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTerms& terms);
 
-/// The top of the document: those claims.
-[[nodiscard]] std::string guarantee_section(const Certificate& certificate);
+/// Those claims of the certificate, and that on the lowest signal-to-noise ratio.
+[[nodiscard]] std::vector<const Claim*> guarantees(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -91,7 +91,7 @@ std::string process_noise_words(const SingleChannelDesignTable& design) {
 
 }  // namespace
 
-std::string single_channel_summary(const Certificate& certificate) {
+std::string single_channel_remarks(const Certificate& certificate) {
   std::string text;
   if (!biases(certificate).empty()) {  // where only verdicts are asked for, no bias is looked for
     text = "- " + bias_sentence(certificate, middle_bias(certificate)) + "\n";
@@ -123,16 +123,6 @@ std::string single_channel_summary(const Certificate& certificate) {
                     "- Of the statements on the paper's Propositions 1 and 2, {} are true, {} undecided; "
                     "false: {} (see `published-theorems.md`).\n\n",
                     proved, undecided, refuted.empty() ? "none" : refuted);
-}
-
-std::string recursion_summary(const Certificate& certificate) {
-  std::string text;
-  for (const Claim& claim : certificate.claims) {
-    if (claim.id.starts_with("recursion/")) {
-      text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
-    }
-  }
-  return text;
 }
 
 std::string recursion_section(const Certificate& certificate) {

@@ -7,11 +7,8 @@
 
 namespace veritrack::certificates {
 
-/// The answers in a few sentences.
-[[nodiscard]] std::string single_channel_summary(const Certificate& certificate);
-
-/// What is proved of the same filter as a recursion, a sentence each.
-[[nodiscard]] std::string recursion_summary(const Certificate& certificate);
+/// The bias in a sentence, and how many statements of the paper are true.
+[[nodiscard]] std::string single_channel_remarks(const Certificate& certificate);
 
 /// The sets of the same filter as a recursion, or why there are none.
 [[nodiscard]] std::string recursion_section(const Certificate& certificate);

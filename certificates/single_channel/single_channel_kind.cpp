@@ -1,6 +1,7 @@
 // The single-channel tracker as a kind of tracker.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/sets/frequency_promise.hpp"
@@ -18,9 +19,14 @@ namespace veritrack::certificates {
 
 namespace {
 
-std::string summary(const Certificate& certificate) {
-  return guarantee_section(certificate) + recursion_summary(certificate) +
-         single_channel_summary(certificate);
+std::vector<const Claim*> answers(const Certificate& certificate) {
+  std::vector<const Claim*> found = guarantees(certificate);
+  for (const Claim& claim : certificate.claims) {
+    if (claim.id.starts_with("recursion/")) {
+      found.push_back(&claim);
+    }
+  }
+  return found;
 }
 
 std::string sections(const Certificate& certificate, const MarkdownOptions& options) {
@@ -44,8 +50,9 @@ const TrackerKind& single_channel_kind() {
   static const TrackerKind kind{.name = "single-channel-ekf",
                                 .design_json = single_channel_design_json,
                                 .certify = certify_single_channel,
-                                .summary = summary,
+                                .answers = answers,
                                 .sections = sections,
+                                .remarks = single_channel_remarks,
                                 .published_results = single_channel_published_results,
                                 .published = published,
                                 .limited_in_time = true,

@@ -160,6 +160,7 @@ class BlockVerifier {
     for (const char* name : {"probability_of_losing_lock", "offset_error_bound", "rms_offset_error"}) {
       found.evidence.push_back({name, at_most(&proved, name), Sense::bounds_above});
     }
+    found.hypotheses = hypotheses;
     found.statement = hypotheses + "the probability that within the first " + design_.assumed_text("blocks") +
                       " blocks the offset error of an estimate exceeds " + most("offset_error_bound") +
                       " bins is at most " + most("probability_of_losing_lock") +
@@ -249,6 +250,7 @@ class BlockVerifier {
         proved_if(at_most("offset_error_bound").finite() && at_most("ultimate_offset_error").finite());
     found.evidence = {bounded("offset_error_bound"), bounded("ultimate_offset_error"),
                       bounded("settling_blocks"), bounded("settled_offset_error")};
+    found.hypotheses = hypotheses_;
     found.statement = hypotheses_ + "the offset error of every estimate and prediction is at most " +
                       most("offset_error_bound") + " bins, and in the long run at most " +
                       most("ultimate_offset_error") + " bins";

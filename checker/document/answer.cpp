@@ -4,16 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "checker/document/first_page.hpp"
 #include "checker/numbers/ball.hpp"
 #include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-const char* word(Verdict verdict) {
-  return verdict == Verdict::proved ? "PROVED" : verdict == Verdict::refuted ? "REFUTED" : "UNDECIDED";
-}
 
 /// Unicode that controls a terminal or turns the direction of writing: U+0080 to 9F, U+200E and F, U+2028 to
 /// 2E, U+2066 to 69, as UTF-8.
@@ -67,11 +64,11 @@ std::string to_text(const Verification& found) {
   text += "\nThe design " + quoted(found.quoted[0]) + ", from " + quoted(found.quoted[1]) +
           ",\nSHA-256 of its file " + quoted(found.design_sha256) + ":\n";
   for (const Requirement& requirement : found.requirements) {
-    text += std::string("- required, ") + word(requirement.verdict) + ": " + requirement.text + "\n";
+    text += "- required, " + word_of(requirement.verdict) + ": " + requirement.text + "\n";
   }
   for (const Sentence& sentence : found.sentences) {
     if (sentence.is_summary) {
-      text += std::string("- ") + word(sentence.verdict) + ": " + sentence.text + "\n";
+      text += "- " + word_of(sentence.verdict) + ": " + sentence.text + "\n";
     }
   }
   const std::string rest = found.requirements_proved    ? "everything required is PROVED"
@@ -97,11 +94,11 @@ std::string to_json(const Verification& found) {
   for (const Requirement& requirement : found.requirements) {
     json["required"].push_back({{"claim", requirement.claim},
                                 {"requirement", requirement.text},
-                                {"verdict", word(requirement.verdict)}});
+                                {"verdict", word_of(requirement.verdict)}});
   }
   for (const Sentence& sentence : found.sentences) {
     json["sentences"].push_back(
-        {{"claim", sentence.id}, {"verdict", word(sentence.verdict)}, {"sentence", sentence.text}});
+        {{"claim", sentence.id}, {"verdict", word_of(sentence.verdict)}, {"sentence", sentence.text}});
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -10,16 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/document/first_page.hpp"
 #include "checker/document/plain_markdown.hpp"
 #include "checker/document/sha256.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-std::string word(Verdict verdict) {
-  return verdict == Verdict::proved ? "PROVED" : verdict == Verdict::refuted ? "REFUTED" : "UNDECIDED";
-}
 
 using Lines = std::vector<std::string>;
 
@@ -55,15 +52,14 @@ Lines section(const Lines& lines, const std::string& heading) {
   return {begin + 1, end};
 }
 
-/// The lines of the section that begin so are exactly the expected ones, in their order.
-void check_lines(const Lines& section, const std::string& beginning, const Lines& expected,
-                 const std::string& where, Objections& objections) {
+/// The list in the section of the checker is exactly the expected one.
+void check_sentences(const Lines& section, const Lines& expected, Objections& objections) {
   Lines found;
-  std::copy_if(section.begin(), section.end(), std::back_inserter(found), [&](const std::string& line) {
-    return line.starts_with(beginning) && !line.starts_with("**UNDECIDED**: ");
-  });
+  std::copy_if(section.begin(), section.end(), std::back_inserter(found),
+               [](const std::string& line) { return line.starts_with("- "); });
   if (found != expected) {
-    objections.push_back("the document says something else than was verified " + where);
+    objections.emplace_back(
+        "the document says something else than was verified in the section of the checker");
   }
 }
 
@@ -221,7 +217,7 @@ void check_top(const Lines& lines, Objections& objections) {
 std::string headline(const Verification& verified) {
   std::string text;
   for (const Requirement& requirement : verified.requirements) {
-    text += (text.empty() ? "" : "; ") + word(requirement.verdict) + ": " + requirement.text;
+    text += (text.empty() ? "" : "; ") + word_of(requirement.verdict) + ": " + requirement.text;
   }
   return verified.requirements.empty() ? "# Nothing is required of this design"
                                        : (verified.requirements_proved ? "# " : "# NOT PROVED. ") + text;
@@ -238,25 +234,18 @@ void compare_with_markdown(const Verification& verified, const std::string& cert
   if (document.find(certificate_sha256) == std::string::npos) {
     objections.emplace_back("the document does not name the SHA-256 of the certificate");
   }
-  Lines top;
-  for (const Sentence& sentence : verified.sentences) {
-    if (sentence.is_summary && !is_published) {
-      top.push_back("**" + word(sentence.verdict) + "**: " + sentence.text);
-    }
-  }
+  const Lines top = is_published ? Lines{} : first_page(verified.sentences);
   Lines all;
   for (const Sentence& sentence : verified.sentences) {
-    const std::string verdict = "**" + word(sentence.verdict) + "**";
-    const bool is_at_top = std::find(top.begin(), top.end(), verdict + ": " + sentence.text) != top.end();
-    if (concerns_publication(sentence.id) == is_published && !is_at_top) {
-      all.push_back("- " + verdict + " `" + sentence.id + "`: " + sentence.text);
+    if (concerns_publication(sentence.id) == is_published && (is_published || !sentence.is_summary)) {
+      all.push_back("- **" + word_of(sentence.verdict) + "** `" + sentence.id + "`: " + sentence.text);
     }
   }
-  check_lines(section(lines, ""), "**", top, "in the block at the top", objections);
-  check_lines(section(lines, kSectionOfTheChecker), "- ", all, "in the section of the checker", objections);
+  check_first_page(section(lines, ""), top, objections);
+  check_sentences(section(lines, kSectionOfTheChecker), all, objections);
   Lines rows;
   for (const Requirement& requirement : is_published ? std::vector<Requirement>{} : verified.requirements) {
-    rows.push_back("| " + requirement.text + " | **" + word(requirement.verdict) + "** |");
+    rows.push_back("| " + requirement.text + " | **" + word_of(requirement.verdict) + "** |");
   }
   Lines found;
   for (const std::string& line : section(lines, kSectionOfRequirements)) {

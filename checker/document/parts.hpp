@@ -25,6 +25,7 @@ struct Sentence {
   Verdict verdict = Verdict::undecided;  ///< of the sentence as written
   std::string text;                      ///< with all hypotheses
   bool is_summary = false;               ///< belongs to the block at the top of the document
+  std::string hypotheses = {};           ///< how the text begins, where it is known
 };
 
 /// What a key of [require] asks.

@@ -57,7 +57,8 @@ struct Claim {
   std::string statement;  ///< one sentence with all its hypotheses
   Verdict verdict = Verdict::undecided;
   std::vector<Quantity> evidence;
-  bool is_summary = false;  ///< belongs to the block at the top of the document
+  bool is_summary = false;      ///< belongs to the block at the top of the document
+  std::string hypotheses = {};  ///< how it begins, of one that belongs to the block at the top
 };
 
 /// [lo, hi] as a ball.

@@ -142,7 +142,8 @@ class KklVerifier {
     const Ball value = bound(known->quantity);
     Claim found;
     found.is_summary = true;
-    found.statement = hypotheses(design) + known->before + text_of(*asked) + known->after + ": from " +
+    found.hypotheses = hypotheses(design);
+    found.statement = found.hypotheses + known->before + text_of(*asked) + known->after + ": from " +
                       upper_decimal(settling) + " s after the start on, ";
     const bool is_time = std::string(known->quantity) == "settling_time";
     found.statement += is_time ? "the frequency error is at most " +

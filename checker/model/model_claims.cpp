@@ -383,10 +383,11 @@ Claim ModelClaims::told_lock(const Tree& claim) const {
   const TubeFamily* set = find(name);
   const Ball deviation =
       is_lowest ? deviation_at(written(claim, "snr_db")) * design_->amplitude : *design_->deviation;
-  found.statement = words_.constant_tone() + words_.gaussian_noise(decibels) + words_.start_inside(name) +
-                    ", the probability that the tracker loses its lock " + words_.stretch_of_samples() +
-                    ", its frequency error exceeding " + units_.at_most(claim.at("frequency_error").text()) +
-                    " at one of them, is at most " + claim.at("probability").text() + ".";
+  found.hypotheses = words_.constant_tone() + words_.gaussian_noise(decibels) + words_.start_inside(name);
+  found.statement = found.hypotheses + ", the probability that the tracker loses its lock " +
+                    words_.stretch_of_samples() + ", its frequency error exceeding " +
+                    units_.at_most(claim.at("frequency_error").text()) + " at one of them, is at most " +
+                    claim.at("probability").text() + ".";
   found.verdict = proved_if(is_seldom_left(set, deviation, written(claim, "probability"), false) &&
                             is_lock(*set, written(claim, "frequency_error")));
   return found;
@@ -398,8 +399,9 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   const Ball bound = written(claim, "frequency_error");
   Claim found;
   found.is_summary = true;
-  found.statement = words.assumed_tone(design_->moves()) + words.assumed_noise(design_->is_noisy()) +
-                    words.assumed_start(deciding_name()) + ", the frequency error stays at or below " +
+  found.hypotheses = words.assumed_tone(design_->moves()) + words.assumed_noise(design_->is_noisy()) +
+                     words.assumed_start(deciding_name());
+  found.statement = found.hypotheses + ", the frequency error stays at or below " +
                     units_.at_most(claim.at("frequency_error").text()) + " for ever";
   bool certain =
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
@@ -451,8 +453,9 @@ Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
                    whole_number(claim, "phases", kMostParts),
                    whole_number(claim, "frequencies", kMostParts)};
   const Ball after = written(claim, "frequency_error");
-  found.statement = words.constant_tone() + words.assumed_noise(design_->is_noisy()) +
-                    words.started_exactly() + ", the tracker is in the set \"" + deciding_name() +
+  found.hypotheses =
+      words.constant_tone() + words.assumed_noise(design_->is_noisy()) + words.started_exactly();
+  found.statement = found.hypotheses + ", the tracker is in the set \"" + deciding_name() +
                     "\" of the certificate after at most " + claim.at("samples").text() + " samples";
   bool certain = is_of_one_amplitude(set) && is_lock(*set, after, part);
   if (const Tree* error = claim.find("frequency_error_before")) {
@@ -497,8 +500,9 @@ Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
-  found.statement = words.constant_tone() + ", the tracker tolerates noise up to " +
-                    claim.at("noise").text() + by_set(noise, "noise") +
+  found.hypotheses = words.constant_tone();
+  found.statement = found.hypotheses + ", the tracker tolerates noise up to " + claim.at("noise").text() +
+                    by_set(noise, "noise") +
                     ": a certified invariant set exists in which the frequency error stays at or below " +
                     units_.at_most(claim.at("frequency_error").text());
   const Ball tolerated = written(claim, "noise");
@@ -533,18 +537,18 @@ Claim ModelClaims::slew_limit(const Tree& claim, const Part& part) const {
   bool certain = set != nullptr && certainly_positive(slew) && certainly_at_most(slew, Ball(set->slew()));
   Claim found;
   found.is_summary = true;
-  found.statement = words.tone_in_band();
+  found.hypotheses = words.tone_in_band();
   if (const Tree* noise = claim.find("noise")) {
     const Ball together = written(claim, "noise");
-    found.statement += ", with noise of at most " + noise->text();
+    found.hypotheses += ", with noise of at most " + noise->text();
     certain = certain && certainly_positive(together) && certainly_at_most(together, Ball(set->noise()));
   } else {
-    found.statement += ", without noise";
+    found.hypotheses += ", without noise";
   }
-  found.statement += ", the tracker tolerates a slew up to " + units_.slew(claim.at("slew").text()) +
-                     by_set(set, "slew") +
-                     ": a certified invariant set exists in which the frequency error stays at or below " +
-                     units_.at_most(claim.at("frequency_error").text()) + ".";
+  found.statement = found.hypotheses + ", the tracker tolerates a slew up to " +
+                    units_.slew(claim.at("slew").text()) + by_set(set, "slew") +
+                    ": a certified invariant set exists in which the frequency error stays at or below " +
+                    units_.at_most(claim.at("frequency_error").text()) + ".";
   found.verdict = proved_if(certain);
   return found;
 }
@@ -554,11 +558,11 @@ Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
-  found.statement = words.constant_tone() + ", without noise, " + words.started_in("starts") +
-                    ", the mean over the phase of the frequency error in the long run is between " +
-                    units_.between(claim.at("bias_low").text(), claim.at("bias_high").text()) +
-                    ", and the error varies by at most " + units_.at_most(claim.at("ripple").text()) +
-                    " over the phase.";
+  found.hypotheses = words.constant_tone() + ", without noise, " + words.started_in("starts");
+  found.statement =
+      found.hypotheses + ", the mean over the phase of the frequency error in the long run is between " +
+      units_.between(claim.at("bias_low").text(), claim.at("bias_high").text()) +
+      ", and the error varies by at most " + units_.at_most(claim.at("ripple").text()) + " over the phase.";
   found.verdict =
       proved_if(set != nullptr &&
                 of(*set).mean_error_is_between(written(claim, "bias_low"), written(claim, "bias_high")) &&

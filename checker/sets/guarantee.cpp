@@ -279,7 +279,8 @@ Claim Guarantee::frequency_error(const Promises& promises) const {
   const bool exceeded = same || certainly_at_most(limit, start_error_) ||
                         (promises.wrong_lock && certainly_at_most(limit, *promises.wrong_lock));
   Claim found;
-  found.statement = hypotheses(promises) + short_text(kBound) + ".";
+  found.hypotheses = hypotheses(promises);
+  found.statement = found.hypotheses + short_text(kBound) + ".";
   found.verdict = certainly_less(of(promises.bound), limit) ? Verdict::proved
                   : exceeded                                ? Verdict::refuted
                                                             : Verdict::undecided;
@@ -330,9 +331,10 @@ Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) cons
   found.evidence = {{"frequency_error_radius", of(promises.reach), Sense::bounds_below},
                     {"contraction_rate", of(promises.rate), Sense::bounds_above}};
   found.verdict = proved_if(promises.reach && is_lock(promises.reach_error) && certainly_positive(reach));
+  found.hypotheses = tone(true);
   found.statement =
-      tone(true) + ", a certified invariant set contains frequency errors up to " + words_.at_least(reach) +
-      " and none of " + lock_words() + " or more" +
+      found.hypotheses + ", a certified invariant set contains frequency errors up to " +
+      words_.at_least(reach) + " and none of " + lock_words() + " or more" +
       (promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "");
   if (const Tree* rate = evidence.find("contraction_rate")) {
     found.statement +=
@@ -357,7 +359,8 @@ Claim Guarantee::limits(const Tree& claim, const Promises& promises) const {
                     {"largest_slew", of(promises.slew), Sense::bounds_below}};
   found.verdict = proved_if(promises.noise && promises.slew && is_lock(promises.noise_error) &&
                             is_lock(promises.slew_error));
-  found.statement = tone(false) + ", at a constant frequency the tracker tolerates noise up to " +
+  found.hypotheses = tone(false);
+  found.statement = found.hypotheses + ", at a constant frequency the tracker tolerates noise up to " +
                     lower_decimal(low_of(evidence.at("largest_noise"))) +
                     " of the amplitude, and without noise a slew up to " +
                     words_.slew(low_of(evidence.at("largest_slew"))) +
@@ -373,7 +376,8 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
     found = frequency_error(promises);
     found.statement.pop_back();
   } else {
-    found.statement = hypotheses(promises) + "the tracker keeps its lock for ever";
+    found.hypotheses = hypotheses(promises);
+    found.statement = found.hypotheses + "the tracker keeps its lock for ever";
     // The sentence names what the error never exceeds.
     const Tree* named = claim.at("evidence").find("frequency_error_bound");
     found.verdict = named != nullptr && is_lock(promises.bound) && is_lock(high_of(*named)) ? Verdict::proved
@@ -439,8 +443,9 @@ Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) cons
                             is_lock(high_of(evidence.at("lock_frequency_error"))));
   found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above},
                     {"lock_frequency_error", of(promises.lock_reach), Sense::bounds_above}};
+  found.hypotheses = hypotheses(promises);
   found.statement =
-      hypotheses(promises) + "the probability that the tracker loses its lock " + stretch_of_samples() +
+      found.hypotheses + "the probability that the tracker loses its lock " + stretch_of_samples() +
       ", its frequency error exceeding " + words_.at_most(high_of(evidence.at("lock_frequency_error"))) +
       " at one of them, is at most " + upper_decimal(high_of(evidence.at("probability_of_losing_lock")));
   if (const Tree* rms = evidence.find("rms_frequency_error")) {

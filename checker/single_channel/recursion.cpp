@@ -186,6 +186,7 @@ Claim Recursion::check(const Tree& claim, const Guarantee& guarantee, Objections
     objections.emplace_back("the frequency errors in its set do not tell the lock from others");
   }
   Claim found;
+  found.hypotheses = sentence->hypotheses;
   found.statement = sentence->text;
   found.verdict = Verdict::proved;
   found.is_summary = is_of_recursion(id);

@@ -25,7 +25,7 @@ TEST_CASE(
     CHECK(kinds[i]->name == formats[i]->tracker);
     CHECK((kinds[i]->design_json != nullptr));
     CHECK((kinds[i]->certify != nullptr));
-    CHECK((kinds[i]->summary != nullptr));
+    CHECK((kinds[i]->answers != nullptr));
     CHECK((kinds[i]->sections != nullptr));
     std::any tables = formats[i]->empty_tables();
     CHECK_FALSE(formats[i]->bind_tables(tables).empty());

@@ -120,7 +120,7 @@ class List {
     if (hypotheses_.empty()) {
       return "";
     }
-    std::string text = "**Assume**\n\n";
+    std::string text = "**Assume** (each claim below names those that it rests on)\n\n";
     for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
       text += fmt::format("{}. {}\n", i + 1, hypotheses_[i]);
     }

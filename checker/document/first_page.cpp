@@ -12,7 +12,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-constexpr const char* kAssume = "**Assume**";
+constexpr const char* kAssume = "**Assume** (each claim below names those that it rests on)";
 constexpr const char* kThen = "**Then**";
 
 /// Words with which a hypothesis begins, after a comma or a full stop.

@@ -29,11 +29,20 @@ class Run:
         self.text = (self.out / "certificate.md").read_text()
 
     def guarantee(self):
-        """The claim, which must be the paragraph below the first line of the document."""
+        """The claim, which the document must have below its first line: as a sentence, or in the list."""
         claim = next(claim for claim in self.report["claims"] if claim["id"] == "ekf/guarantee")
         lines = self.text.splitlines()
-        assert lines[2] == f"**{claim['verdict'].upper()}**: {claim['statement']}", lines[2]
-        assert lines[4].endswith(claim["reason"]), lines[4]
+        verdict = claim["verdict"].upper()
+        if verdict == "UNDECIDED":
+            assert lines[2] == f"**{verdict}**: {claim['statement']}", lines[2]
+            assert lines[4].endswith(claim["reason"]), lines[4]
+            return claim
+        assert lines[2].startswith("**Assume**"), lines[2]
+        first = next(number for number, line in enumerate(lines) if line.startswith("- **"))
+        said = re.fullmatch(rf"- \*\*{verdict}\*\* \(1 to (\d+)\): (.*)", lines[first])
+        assumed = [line.split(". ", 1)[1] for line in lines[4:4 + int(said.group(1))]]
+        assert ", ".join(assumed + [said.group(2)]) == claim["statement"], lines[first]
+        assert lines[first + 1] == f"  Why: {claim['reason']}", lines[first + 1]
         return claim
 
 

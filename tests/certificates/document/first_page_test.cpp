@@ -29,7 +29,8 @@ TEST_CASE("hypotheses are listed once, and claims name those that they rest on")
                             Verdict::proved, "It lies in a set.");
   const Claim limit = claim(kTone, ", it tolerates noise up to 4.");
   CHECK(first_page({&bound, &limit}) ==
-        "**Assume**\n\n1. In exact arithmetic\n2. on a tone of amplitude 1 with any frequency in [1, 2]\n3. "
+        "**Assume** (each claim below names those that it rests on)\n\n1. In exact arithmetic\n2. on a tone "
+        "of amplitude 1 with any frequency in [1, 2]\n3. "
         "with noise below 0.1\n4. started in the set \"a\"\n\n**Then**\n\n- **PROVED** (1 to 4): it stays "
         "below 3.\n  Why: It lies in a set.\n- **PROVED** (1, 2): it tolerates noise up to 4.\n\n");
 }
@@ -40,7 +41,8 @@ TEST_CASE("what is undecided comes first, as a sentence, and what names no hypot
   const Claim plain = claim("", "It is so.", Verdict::proved, "By this.");
   CHECK(first_page({&plain, &limit, &open}) ==
         "**UNDECIDED**: " + kTone +
-            ", it stays below 2.\n\nWhy not: No set was found.\n\n**Assume**\n\n1. In exact arithmetic\n2. "
+            ", it stays below 2.\n\nWhy not: No set was found.\n\n**Assume** (each claim below names those "
+            "that it rests on)\n\n1. In exact arithmetic\n2. "
             "on a tone of amplitude 1 with any frequency in [1, 2]\n3. without noise\n\n**Then**\n\n- "
             "**REFUTED** (1 to 3): it is still.\n\n**PROVED**: It is so.\n\nWhy: By this.\n\n");
   CHECK(first_page({}).empty());

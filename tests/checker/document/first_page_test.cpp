@@ -30,7 +30,7 @@ std::vector<Sentence> sentences() {
           {"e/f", Verdict::proved, "It is not at the top.", false}};
 }
 
-const Lines kPage{"**Assume**",
+const Lines kPage{"**Assume** (each claim below names those that it rests on)",
                   "1. In exact arithmetic (nearest, even)",
                   "2. for a tone of amplitude 1",
                   "3. with measurement noise of at most 0.1 (both channels, together)",
@@ -71,7 +71,8 @@ TEST_CASE("a hypothesis that differs in a word is another one") {
   const Lines page = first_page({sentence(kTone + ", with noise below 1", ", a."),
                                  sentence(kTone + ", with noise below 2", ", b."),
                                  sentence(kTone + ", without noise, started in the set \"x\"", ", c.")});
-  CHECK(page == Lines{"**Assume**", "1. In exact arithmetic (nearest, even)", "2. for a tone of amplitude 1",
+  CHECK(page == Lines{"**Assume** (each claim below names those that it rests on)",
+                      "1. In exact arithmetic (nearest, even)", "2. for a tone of amplitude 1",
                       "3. with noise below 1", "4. with noise below 2", "5. without noise",
                       "6. started in the set \"x\"", "**Then**", "- **PROVED** (1 to 3): a.",
                       "- **PROVED** (1, 2, 4): b.", "- **PROVED** (1, 2, 5, 6): c."});
@@ -82,8 +83,9 @@ TEST_CASE("hypotheses that are sentences of their own end with them") {
       {sentence("In exact arithmetic, the block tracker is fed with a tone, plus noise of 1. Its first "
                 "prediction is near. Then ",
                 "it stays near.")});
-  CHECK(page == Lines{"**Assume**", "1. In exact arithmetic", "2. the block tracker is fed with a tone",
-                      "3. plus noise of 1", "4. Its first prediction is near", "**Then**",
+  CHECK(page == Lines{"**Assume** (each claim below names those that it rests on)", "1. In exact arithmetic",
+                      "2. the block tracker is fed with a tone", "3. plus noise of 1",
+                      "4. Its first prediction is near", "**Then**",
                       "- **PROVED** (1 to 4): it stays near."});
 }
 

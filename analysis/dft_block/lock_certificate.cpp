@@ -38,7 +38,7 @@ Interval start_length(const LockFrame& frame, const LockQuestion& question) {
 }
 
 /// Where noise and slew push against the rate.
-Interval resting_length(const Interval& disturbance, const LockRate& rate) {
+Interval invariant_length(const Interval& disturbance, const LockRate& rate) {
   return disturbance / (Interval(1.0) - Interval(rate.rate));
 }
 
@@ -65,7 +65,7 @@ LadderResult climb(const LockQuestion& question, const LockSearch& search) {
     }
     const Interval start = start_length(*frame, question);
     const Interval disturbance = frame->disturbance();
-    const Interval rest = resting_length(disturbance, *rate);
+    const Interval rest = invariant_length(disturbance, *rate);
     if (!rigor::is_finite(start) || !rigor::is_finite(rest)) {
       break;
     }
@@ -89,7 +89,7 @@ LadderResult climb(const LockQuestion& question, const LockSearch& search) {
 std::optional<LockRate> late_rate(const Found& found, const LockFrame& frame, const LockQuestion& question,
                                   const LockSearch& search) {
   constexpr double kRoom = 1.05;
-  const double radius = kRoom * resting_length(found.disturbance, found.rate).upper();
+  const double radius = kRoom * invariant_length(found.disturbance, found.rate).upper();
   if (!(radius > 0.0) || !(radius < 0.95 * found.rate.radius)) {
     return std::nullopt;
   }
@@ -108,7 +108,7 @@ std::optional<double> blocks_until(const Interval& length, const Found& found) {
     // Once below the late radius errors stay there.
     const bool is_late = found.late && rigor::certainly_less_equal(e, Interval(found.late->radius));
     const LockRate& rate = is_late ? *found.late : found.rate;
-    const bool stays = rigor::certainly_less_equal(resting_length(found.disturbance, rate), length);
+    const bool stays = rigor::certainly_less_equal(invariant_length(found.disturbance, rate), length);
     if (stays && rigor::certainly_less_equal(e, length)) {
       return block;
     }
@@ -135,7 +135,7 @@ void add_condition(Derivation& derivation, const char* id, const char* statement
 
 void add_bounds(Derivation& derivation, const Found& found, const LockFrame& frame,
                 const LockQuestion& question) {
-  const Interval rest = resting_length(found.disturbance, found.rate);
+  const Interval rest = invariant_length(found.disturbance, found.rate);
   const Interval ever = max(found.start, rest);
   add(derivation, {"contraction_rate", "\\kappa", "factor by which a block shortens errors"},
       Interval(found.rate.rate));
@@ -150,7 +150,7 @@ void add_bounds(Derivation& derivation, const Found& found, const LockFrame& fra
       {"amplitude_error_bound", "\\sup_k |\\hat x_1/x_1 - 1|",
        "the error of x1 in every prediction, relative to the tone's"},
       ever * frame.reach(0));
-  const Interval last = found.late ? resting_length(found.disturbance, *found.late) : rest;
+  const Interval last = found.late ? invariant_length(found.disturbance, *found.late) : rest;
   add(derivation,
       {"ultimate_offset_error", "\\limsup_k |\\tilde\\delta_k|", "the offset error in the long run, bins"},
       last * frame.reach(2));

@@ -21,8 +21,8 @@ using PhaseCovariance = std::array<Scalar, 3>;
 
 /// A sample later: update, then prediction.
 template <typename Scalar>
-PhaseCovariance<Scalar> a_sample_later(const PhaseCovariance<Scalar>& m,
-                                       const trackers::ToneModel<Scalar>& design) {
+PhaseCovariance<Scalar> next_covariance(const PhaseCovariance<Scalar>& m,
+                                        const trackers::ToneModel<Scalar>& design) {
   const auto& [a, b, c] = m;
   const Scalar sum = a + design.r;
   const Scalar kept = Scalar(1.0) - design.epsilon;
@@ -39,16 +39,16 @@ PhaseCovariance<double> proposal(const Design& design) {
                                        rigor::midpoint(design.r), rigor::midpoint(design.epsilon)};
   PhaseCovariance<double> m{at.r + at.q1, 0.0, at.r + at.q2};
   for (int k = 0; k < kSamples; ++k) {
-    m = a_sample_later(m, at);
+    m = next_covariance(m, at);
   }
   return m;
 }
 
-/// a_sample_later(m) - m.
+/// next_covariance(m) - m.
 PhaseCovariance<Unknown> change(const PhaseCovariance<Unknown>& m, const Design& design) {
   const trackers::ToneModel<Unknown> constant{Unknown(design.q1), Unknown(design.q2), Unknown(design.r),
                                               Unknown(design.epsilon)};
-  const PhaseCovariance<Unknown> then = a_sample_later(m, constant);
+  const PhaseCovariance<Unknown> then = next_covariance(m, constant);
   return {then[0] - m[0], then[1] - m[1], then[2] - m[2]};
 }
 

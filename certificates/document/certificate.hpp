@@ -40,7 +40,7 @@ struct Claim {
 /// How much is looked for.
 enum class Extent {
   everything,
-  requirements,  ///< what decides [require], and not what takes long and is only told beside it
+  requirements,  ///< what decides [require], and not what takes long and is only reported beside it
   verdicts,      ///< the same verdicts; a search stops as soon as it has them
   quick  ///< one search for a set that does all that is required, and no other: what that leaves undecided,
          ///< another extent may prove

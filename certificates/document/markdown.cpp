@@ -75,7 +75,7 @@ std::string checker_section(const Certificate& certificate, const MarkdownOption
              "verifies the sentences at the top and those below from the evidence in `certificate.json` "
              "(SHA-256 `{}`), and that "
              "this document gives no verdict in capitals but those it verified: in the first line, at the "
-             "top, in what was required, and here. All else is told, and proves nothing: sampled values, "
+             "top, in what was required, and here. All else is reported, and proves nothing: sampled values, "
              "simulations, comparisons, undecided statements.{}\n\n",
              has_published(certificate) ? " --markdown published-theorems.md" : "",
              options.certificate_sha256,
@@ -187,7 +187,8 @@ std::string to_published_markdown(const Certificate& certificate, const Markdown
              "## What the checker verifies\n\n`veritrack-verify certificate.json --markdown "
              "published-theorems.md` verifies these sentences from `certificate.json` (SHA-256 `{}`), and "
              "that "
-             "this document gives no other verdict in capitals. All else is told. A sentence on conditions "
+             "this document gives no other verdict in capitals. All else is reported. A sentence on "
+             "conditions "
              "that is refuted means that the theorem does not apply to this design, not that the tracker "
              "fails.\n\n",
              options.certificate_sha256) +

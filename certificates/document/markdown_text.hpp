@@ -27,7 +27,7 @@ namespace veritrack::certificates::markdown {
 /// PROVED, REFUTED or UNDECIDED, in bold.
 [[nodiscard]] std::string verdict(rigor::Verdict value);
 
-/// "yes", "no" or "undecided": for what is told beside the compared verdicts. Only those are written in
+/// "yes", "no" or "undecided": for what is reported beside the compared verdicts. Only those are written in
 /// capitals, so that the checker can object to every other.
 [[nodiscard]] std::string answer(rigor::Verdict value);
 

@@ -45,7 +45,7 @@ struct TrackerKind {
   bool limited_in_time = false;
   /// Members of certificate.json beside derivations and claims, from which something is verified.
   Json (*evidence_json)(const Certificate& certificate) = nullptr;
-  /// Members of report.json beside derivations and claims, which are told and not verified.
+  /// Members of report.json beside derivations and claims, which are reported and not verified.
   Json (*report_json)(const Certificate& certificate) = nullptr;
   /// Needs the upward mode.
   FormalProofs (*formal_proofs)(const Certificate& certificate) = nullptr;

@@ -54,8 +54,8 @@ class ModelClaims {
     }
     if (const Scope scope = scope_of(*deciding_); scope.is_any && keeps_starts() && !is_gaussian()) {
       const ModelWords words = words_for(scope.part);
-      Claim claim = told("model/guarantee", words.assumed_tone() + words.noise() +
-                                                words.start(sets_->assumed ? "assumed" : "starts"));
+      Claim claim = reported("model/guarantee", words.assumed_tone() + words.noise() +
+                                                    words.start(sets_->assumed ? "assumed" : "starts"));
       const std::string bound = above(deciding_->frequency_error);
       claim.values = {{"frequency_error", bound}};
       add_part(claim, scope.part);
@@ -80,8 +80,8 @@ class ModelClaims {
     }
     const ModelSet& starts = sets_->starts;
     if (const Scope scope = scope_of(starts); scope.is_any && knows_bias()) {
-      Claim claim = told("model/steady-state", words_for(scope.part).constant_tone() + ", without noise, " +
-                                                   words_.started_in("starts"));
+      Claim claim = reported("model/steady-state", words_for(scope.part).constant_tone() +
+                                                       ", without noise, " + words_.started_in("starts"));
       const std::string low = below(starts.bias.lower());
       const std::string high = above(starts.bias.upper());
       constexpr int kDigits = 6;  // so that a large one is as exact as it is known
@@ -180,7 +180,7 @@ class ModelClaims {
   [[nodiscard]] ModelWords words_for(std::optional<BandPart> part) const {
     return ModelWords(*tables_, std::move(part), sets_->bounds_covariance);
   }
-  static Claim told(const char* id, const std::string& hypotheses) {
+  static Claim reported(const char* id, const std::string& hypotheses) {
     Claim claim;
     claim.id = id;
     claim.hypotheses = hypotheses;
@@ -197,7 +197,7 @@ class ModelClaims {
   void add_capture(const ModelCapture& capture, const std::optional<BandPart>& part) {
     const ModelWords words = words_for(part);
     const std::string samples = fmt::format("{}", capture.samples);
-    Claim claim = told("model/capture", words.constant_tone() + words.noise() + words.started_exactly());
+    Claim claim = reported("model/capture", words.constant_tone() + words.noise() + words.started_exactly());
     claim.values = {{"samples", samples}};
     claim.statement +=
         fmt::format(", the tracker is in the set \"{}\" of the certificate after at most {} samples",
@@ -218,7 +218,7 @@ class ModelClaims {
     add(claim);
   }
   void add_limits(const ModelLimits& limits) {
-    Claim claim = told("model/limits", words_for(limits.part).constant_tone());
+    Claim claim = reported("model/limits", words_for(limits.part).constant_tone());
     const std::string noise = below(limits.noise.size);
     claim.values = {{"noise", noise}, {"frequency_error", above(limits.noise.set->frequency_error)}};
     claim.statement +=
@@ -240,7 +240,7 @@ class ModelClaims {
   /// The noise of the set that tolerates so much slew is tolerated together with it.
   void add_slew_limit(const SlewLimit& limit) {
     const ModelWords words = words_for(limit.part);
-    Claim claim = told("model/slew-limit", words.tone_with("a frequency that stays in " + words.band()));
+    Claim claim = reported("model/slew-limit", words.tone_with("a frequency that stays in " + words.band()));
     const ModelSet& set = *limit.slew.set;
     const std::string slew = below(limit.slew.size);
     claim.values = {{"slew", slew}, {"frequency_error", above(set.frequency_error)}};

@@ -183,7 +183,7 @@ Json model_evidence_json(const Certificate& certificate) {
     }
   };
   const auto add = [&](const ModelSet& set) {
-    // Nothing is told of a part of the set for the largest slew.
+    // Nothing is reported of a part of the set for the largest slew.
     if (set.is_proved() || (set.has_part() && set.tubes.name != "slew")) {
       list_all(set.tubes);
     }

@@ -300,7 +300,7 @@ std::vector<BoundTable> bind_model_tables(std::any& tables) {
           bound_table("require", kModelRequireKeys, target.require)};
 }
 
-/// Of which starts nothing can be told: in noise or of trackers for which they are not followed.
+/// Starts of which nothing can be reported: in noise or of trackers for which they are not followed.
 std::optional<TableObjection> objection_to_exact_start(const ModelTable& model,
                                                        const ModelAssumptions& assume) {
   if (assume.start_exactly.empty()) {

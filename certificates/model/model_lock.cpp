@@ -47,7 +47,8 @@ std::string stretch_of(const ModelAssumptions& assume) {
   return fmt::format("within any {} successive samples, however late", assume.samples.value().text);
 }
 
-Claim told_of(const char* id, const ModelLock& lock, std::string hypotheses, const ModelAssumptions& assume) {
+Claim reported_claim(const char* id, const ModelLock& lock, std::string hypotheses,
+                     const ModelAssumptions& assume) {
   Claim claim;
   claim.id = id;
   claim.verdict = Verdict::proved;
@@ -138,18 +139,18 @@ void add_lock_claims(Certificate& certificate) {
     return lock.is_proved() && lock.probability < 1.0 && names_lock(lock.frequency_error, lock.half_distance);
   };
   if (const auto& lock = sets.gaussian; lock && is_told(*lock)) {
-    certificate.claims.push_back(told_of("model/losing-lock", *lock,
-                                         words.constant_tone() +
-                                             gaussian_words(*assume.gaussian, assume.amplitude[0]) +
-                                             words.start_inside("gaussian"),
-                                         assume));
+    certificate.claims.push_back(reported_claim("model/losing-lock", *lock,
+                                                words.constant_tone() +
+                                                    gaussian_words(*assume.gaussian, assume.amplitude[0]) +
+                                                    words.start_inside("gaussian"),
+                                                assume));
   }
   if (const auto& lock = sets.lowest_snr; lock && is_told(*lock) && !lock->snr_db.empty()) {
     GaussianNoise noise;
     noise.snr_db = Number{};
     noise.snr_db->text = lock->snr_db;
     noise.snr_db->value = rigor::parse_decimal(lock->snr_db);
-    Claim claim = told_of(
+    Claim claim = reported_claim(
         "model/lowest-snr", *lock,
         words.constant_tone() + gaussian_words(noise, assume.amplitude[0]) + words.start_inside("lowest-snr"),
         assume);

@@ -47,7 +47,7 @@ struct LockSearch {
 [[nodiscard]] ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr,
                                            const model::SetProgress& progress);
 
-/// What is told of Gaussian noise, and what is required: claims of the certificate of a model.
+/// What is reported of Gaussian noise, and what is required: claims of the certificate of a model.
 void add_lock_claims(Certificate& certificate);
 [[nodiscard]] Claim required_lock_claim(const Certificate& certificate);
 

@@ -91,8 +91,8 @@ struct SearchedBand {
 /// Of the certificate of a design of this kind. Throws std::bad_any_cast for another.
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);
 
-/// Searches and verifies. `extent`: without what only is told beside the requirements. After the deadline no
-/// more is searched for; what is proved by then is kept. `by_structure`: the covariance of a filter is
+/// Searches and verifies. `extent`: without what only is reported beside the requirements. After the deadline
+/// no more is searched for; what is proved by then is kept. `by_structure`: the covariance of a filter is
 /// bounded by matrices where it can be.
 [[nodiscard]] ModelSets certify_sets(const ModelTables& tables, Extent extent,
                                      const search::Deadline& deadline, const CertifyProgress& progress,

@@ -12,7 +12,7 @@ namespace veritrack::certificates {
 namespace {
 
 constexpr std::string_view kPrefix = "theorem-2.9/";
-constexpr std::string_view kConditions = "/conditions";  // whether a reading applies, told elsewhere
+constexpr std::string_view kConditions = "/conditions";  // whether a reading applies, reported elsewhere
 
 /// "b_1" and "errata" of "theorem-2.9/b_1/errata".
 struct Place {

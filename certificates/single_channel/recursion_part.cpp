@@ -173,11 +173,12 @@ void add_recursion(Certificate& certificate, const CertifyProgress& progress) {
     }
   }
   if (part.certificate) {
-    for (const Claim& told : part.certificate->claims) {
-      if (!told.required && told.verdict == Verdict::proved) {
+    for (const Claim& inner : part.certificate->claims) {
+      if (!inner.required && inner.verdict == Verdict::proved) {
         Claim claim;
-        claim.id = std::string(kOfRecursion) + told.id.substr(kOfModels.size());
-        claim.statement = told.statement;
+        claim.id = std::string(kOfRecursion) + inner.id.substr(kOfModels.size());
+        claim.hypotheses = inner.hypotheses;
+        claim.statement = inner.statement;
         claim.verdict = Verdict::proved;
         claim.reason = "The certificate of the same filter as a recursion shows it.";
         certificate.claims.push_back(std::move(claim));

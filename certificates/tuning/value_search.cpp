@@ -196,8 +196,8 @@ class Search {
     return problem_.certify(values, assume, needed_);
   }
 
-  [[nodiscard]] TriedDesign told(const DesignValues& values, const CertifiedValues& found,
-                                 TriedDesign::Role role) const {
+  [[nodiscard]] TriedDesign reported(const DesignValues& values, const CertifiedValues& found,
+                                     TriedDesign::Role role) const {
     TriedDesign design;
     design.role = role;
     design.values = {{"q1", values.q1}, {"q2", values.q2}, {"r", values.r}, {"epsilon", values.epsilon}};
@@ -269,7 +269,7 @@ class Search {
       const auto role = values == best             ? TriedDesign::Role::chosen
                         : values == problem_.given ? TriedDesign::Role::given
                                                    : TriedDesign::Role::tried;
-      trade_off.designs.push_back(told(values, found, role));
+      trade_off.designs.push_back(reported(values, found, role));
     }
     const Eigen::VectorXd x = point_of(best);
     for (int k = -kTradeOffDesigns / 2; k <= kTradeOffDesigns / 2 && !request_.deadline.is_over(); ++k) {
@@ -282,7 +282,7 @@ class Search {
       const auto known = known_.find(values);
       const CertifiedValues found =
           known != known_.end() ? known->second : looked_at(values, *problem_.assume);
-      trade_off.designs.push_back(told(values, found, TriedDesign::Role::trade_off));
+      trade_off.designs.push_back(reported(values, found, TriedDesign::Role::trade_off));
     }
   }
 

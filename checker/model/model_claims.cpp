@@ -371,7 +371,7 @@ Claim ModelClaims::required_lock(const Tree& claim) const {
   return found;
 }
 
-Claim ModelClaims::told_lock(const Tree& claim) const {
+Claim ModelClaims::reported_lock(const Tree& claim) const {
   const bool is_lowest = claim.at("id").text() == kLowestSnr;
   const std::string name = is_lowest ? "lowest-snr" : "gaussian";
   const std::string decibels = is_lowest ? claim.at("snr_db").text() : std::string();
@@ -588,7 +588,7 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
                 : id == kLimits                ? limits(claim, part)
                 : id == kSlewLimit             ? slew_limit(claim, part)
                 : id == kSteadyState           ? steady_state(claim, part)
-                : is_lock                      ? told_lock(claim)
+                : is_lock                      ? reported_lock(claim)
                 : id == kLosingLock            ? required_lock(claim)
                 : id == kErrorBound            ? bound()
                 : id == kSettlingTime          ? settling()

@@ -70,7 +70,7 @@ class ModelClaims {
   [[nodiscard]] bool is_seldom_left(const TubeFamily* set, const Ball& deviation, const Ball& probability,
                                     bool strictly) const;
   [[nodiscard]] Claim required_lock(const Tree& claim) const;
-  [[nodiscard]] Claim told_lock(const Tree& claim) const;
+  [[nodiscard]] Claim reported_lock(const Tree& claim) const;
   [[nodiscard]] Claim capture(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim captured_in_time(const Tree& claim) const;
   [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;

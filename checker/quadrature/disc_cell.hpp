@@ -34,7 +34,7 @@ class DiscDivision {
   /// A cut cell whose parts are not, and which failed at a level that was well above this one: it may hold.
   [[nodiscard]] bool may_hold(std::size_t node, double level) const;
   void cut(std::size_t node, std::size_t side, double level);
-  void mend(std::size_t node) { nodes_[node].first = 0; }
+  void undo_cut(std::size_t node) { nodes_[node].first = 0; }
   /// Of a cut node.
   [[nodiscard]] std::size_t side(std::size_t node) const { return nodes_[node].side; }
   [[nodiscard]] std::size_t part(std::size_t node, std::size_t which) const {

@@ -116,11 +116,11 @@ int parts_of(double reach) {
 }
 
 /// A cell: all of it, its middle, and the way from there.
-struct Whereabouts {
+struct CellExpansion {
   Way range, middle, way;
 };
-Whereabouts whereabouts_of(const DiscCell& cell) {
-  Whereabouts where;
+CellExpansion expansion_of(const DiscCell& cell) {
+  CellExpansion where;
   where.range = {Ball::hull(Ball(cell.low[0]), Ball(cell.high[0])),
                  Ball::hull(Ball(cell.low[1]), Ball(cell.high[1])),
                  Ball::hull(Ball(cell.from), Ball(cell.to))};
@@ -131,7 +131,7 @@ Whereabouts whereabouts_of(const DiscCell& cell) {
   return where;
 }
 
-SteadyPlace<Chord> place_of(const SteadyLevel& level, const Whereabouts& where, const SteadyCell& steady) {
+SteadyPlace<Chord> place_of(const SteadyLevel& level, const CellExpansion& where, const SteadyCell& steady) {
   SteadyPlace<Chord> place;
   place.level = level.level;
   place.x = Chord(where.middle[kX], where.range[kX], kX, one);
@@ -244,7 +244,7 @@ bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, std:
     std::size_t side = kX;
     ++cells_;
     if (proves(level, cell, side)) {
-      division_.mend(node);
+      division_.undo_cut(node);
       return true;
     }
     if (depth == 0 || hopeless_) {
@@ -258,7 +258,7 @@ bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, std:
 }
 
 bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side) {
-  const Whereabouts where = whereabouts_of(cell);
+  const CellExpansion where = expansion_of(cell);
   const SteadyPlace<Chord> place = place_of(level, where, steady_);
   const SteadyTurn<Chord> turn_of_place = steady_turn(setting_, place);
   const auto [update, is_new] = updates_.try_emplace({cell.low[0], cell.high[0], cell.from, cell.to});

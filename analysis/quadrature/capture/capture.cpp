@@ -24,8 +24,8 @@ constexpr int kDegrees[] = {0, 7, 7, 5};
 constexpr int kSlopeDegrees[] = {0, 3, 3, 2};
 /// Deviations this large (relative amplitude, rad/sample) are beyond all hope.
 constexpr double kLargestDeviation = 0.5;
-/// What is found on the way is told a little larger: a checker that encloses the same states by other means
-/// may find them larger by as much.
+/// What is found on the way is reported a little larger: a checker that encloses the same states by other
+/// means may find them larger by as much.
 constexpr double kRoom = 1.0 + 1e-6;
 
 template <typename Scalar, typename Constant = Scalar>

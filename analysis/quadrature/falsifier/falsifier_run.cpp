@@ -35,7 +35,7 @@ bool is_definite(const Eigen::Matrix3d& m) {
   return m(0, 0) > 0.0 && m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) > 0.0 && m.determinant() > 0.0;
 }
 
-std::string told(const char* what, double found, double certified) {
+std::string violation(const char* what, double found, double certified) {
   std::ostringstream text;
   text.precision(12);
   text << what << ": " << found << " was found where " << certified << " is certified";
@@ -125,7 +125,7 @@ std::optional<std::string> SetClaim::broken_by(const PolarState& before, const E
                                      square(set_.noise_gain * std::hypot(input[0], input[1])) +
                                      square(set_.slew_gain * input[2]));
     if (!(level_after <= allowed * (1.0 + kRelativeRoom) + kAbsoluteRoom * set_.metric.norm())) {
-      return told("|T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2", level_after, allowed);
+      return violation("|T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2", level_after, allowed);
     }
   } else {
     // From the last level that holds the state to the next one.
@@ -136,11 +136,11 @@ std::optional<std::string> SetClaim::broken_by(const PolarState& before, const E
     }
     share = levels_[next];
     if (!(level_after <= share * (1.0 + kRelativeRoom) + kAbsoluteRoom * set_.metric.norm())) {
-      return told("a step to the next level", level_after, share);
+      return violation("a step to the next level", level_after, share);
     }
   }
   if (!(level_after <= set_.radius * (1.0 + kRelativeRoom))) {
-    return told("|T e| <= R", level_after, set_.radius);
+    return violation("|T e| <= R", level_after, set_.radius);
   }
   if (!covariance_is_inside(after.covariance.matrix(), share, kCovarianceRoom)) {
     return "P_lo <= P <= P_hi: the covariance has left its bounds";

@@ -1,4 +1,4 @@
-// How the numbers are told that the falsifier finds: names and words, whatever the set.
+// How the numbers are reported that the falsifier finds: names and words, whatever the set.
 #pragma once
 
 #include "analysis/theorems/derivation.hpp"

@@ -20,7 +20,7 @@ TEST_CASE("a division is looked at again where its parts hold and the level is w
   division.cut(DiscDivision::kWhole, 0, 0.4);
   CHECK(division.side(DiscDivision::kWhole) == 1);
   CHECK(division.is_cut(part));
-  division.mend(part);
+  division.undo_cut(part);
   CHECK_FALSE(division.is_cut(part));
   CHECK(division.may_hold(DiscDivision::kWhole, 0.1));
 }

@@ -24,7 +24,18 @@
 #include "analysis/rigor/packed_bounds.hpp"
 #include "analysis/rigor/rounding.hpp"
 
+#ifdef VERITRACK_BOOST_INTERVALS
+#include "analysis/rigor/boost_bounds.hpp"
+#endif
+
 namespace veritrack::rigor {
+
+/// Whose sums, products, quotients and squares these are: docs/arithmetic.md.
+#ifdef VERITRACK_BOOST_INTERVALS
+namespace interval_operations = boosted;
+#else
+namespace interval_operations = packed;
+#endif
 
 /// A closed, possibly unbounded interval of reals, or the empty set. See the top of this file for its
 /// promise.
@@ -66,19 +77,21 @@ class Interval {
   /// Empty when the divisor contains zero.
   Interval& operator/=(const Interval& other) { return *this = *this / other; }
   friend Interval operator+(const Interval& a, const Interval& b) {
-    return Interval(packed::sum(a.bounds_, b.bounds_));
+    return Interval(interval_operations::sum(a.bounds_, b.bounds_));
   }
   friend Interval operator-(const Interval& a, const Interval& b) {
-    return Interval(packed::sum(a.bounds_, packed::negated(b.bounds_)));
+    return Interval(interval_operations::sum(a.bounds_, packed::negated(b.bounds_)));
   }
   friend Interval operator*(const Interval& a, const Interval& b) {
-    return Interval(packed::product(a.bounds_, b.bounds_));
+    return Interval(interval_operations::product(a.bounds_, b.bounds_));
   }
   friend Interval operator/(const Interval& a, const Interval& b) {
-    return Interval(packed::quotient(a.bounds_, b.bounds_));
+    return Interval(interval_operations::quotient(a.bounds_, b.bounds_));
   }
   /// {t^2 : t in x}: never negative, unlike x * x.
-  [[nodiscard]] friend Interval square(const Interval& x) { return Interval(packed::square(x.bounds_)); }
+  [[nodiscard]] friend Interval square(const Interval& x) {
+    return Interval(interval_operations::square(x.bounds_));
+  }
   /// The smallest interval that contains both; empty when either is, because the empty interval means that
   /// nothing is known.
   [[nodiscard]] friend Interval hull(const Interval& a, const Interval& b) noexcept {

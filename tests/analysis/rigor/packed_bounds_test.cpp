@@ -3,12 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <boost/numeric/interval/arith.hpp>
-#include <boost/numeric/interval/checking.hpp>
-#include <boost/numeric/interval/interval.hpp>
-#include <boost/numeric/interval/policies.hpp>
-#include <boost/numeric/interval/utility.hpp>
-
+#include "analysis/rigor/boost_bounds.hpp"
 #include "tests/analysis/rigor/operands.hpp"
 
 using namespace veritrack;
@@ -17,25 +12,7 @@ using rigor::Interval;
 
 namespace {
 
-/// Boost's rounding policy over the scalar operations: the caller holds the mode.
-struct HeldUpwardPolicy {
-  using unprotected_rounding = HeldUpwardPolicy;
-  static double conv_down(double x) { return x; }
-  static double conv_up(double x) { return x; }
-  static double add_down(double x, double y) { return rigor::add_down(x, y); }
-  static double add_up(double x, double y) { return rigor::add_up(x, y); }
-  static double sub_down(double x, double y) { return rigor::sub_down(x, y); }
-  static double sub_up(double x, double y) { return rigor::sub_up(x, y); }
-  static double mul_down(double x, double y) { return rigor::mul_down(x, y); }
-  static double mul_up(double x, double y) { return rigor::mul_up(x, y); }
-  static double div_down(double x, double y) { return rigor::div_down(x, y); }
-  static double div_up(double x, double y) { return rigor::div_up(x, y); }
-  static double sqrt_down(double x) { return rigor::sqrt_down(x); }
-  static double sqrt_up(double x) { return rigor::sqrt_up(x); }
-};
-using BoostInterval = boost::numeric::interval<
-    double, boost::numeric::interval_lib::policies<HeldUpwardPolicy,
-                                                   boost::numeric::interval_lib::checking_base<double>>>;
+using BoostInterval = rigor::boosted::Bounds;
 
 BoostInterval to_boost(const Interval& x) {
   return {x.lower(), x.upper(), true};
@@ -65,7 +42,32 @@ Interval some_interval(Operands& operands) {
   return operands.random().below(16) == 0 ? bounds(a, b) : bounds(std::min(a, b), std::max(a, b));
 }
 
+__m128d packed_of(const Interval& x) {
+  return rigor::packed::pack(x.lower(), x.upper());
+}
+bool same(__m128d x, __m128d y) {
+  return rigor::identical(bounds(rigor::packed::lower(x), rigor::packed::upper(x)),
+                          bounds(rigor::packed::lower(y), rigor::packed::upper(y)));
+}
+
 }  // namespace
+
+TEST_CASE("the operations that a build may have in their place give the same bounds") {
+  Operands operands(43);
+  Misses misses;
+  const rigor::UpwardRounding mode;
+  for (std::int64_t round = effort(100'000); round > 0; --round) {
+    const Interval x = some_interval(operands);
+    const Interval y = some_interval(operands);
+    const __m128d a = packed_of(x);
+    const __m128d b = packed_of(y);
+    misses.expect(same(rigor::boosted::sum(a, b), rigor::packed::sum(a, b)), "sum", x, y);
+    misses.expect(same(rigor::boosted::product(a, b), rigor::packed::product(a, b)), "product", x, y);
+    misses.expect(same(rigor::boosted::quotient(a, b), rigor::packed::quotient(a, b)), "quotient", x, y);
+    misses.expect(same(rigor::boosted::square(a), rigor::packed::square(a)), "square", x);
+  }
+  VERITRACK_CHECK_NO_MISSES(misses);
+}
 
 TEST_CASE("operations without branches give the bounds that a distinction of all signs gives") {
   Operands operands(41);

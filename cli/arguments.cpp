@@ -74,9 +74,14 @@ void add_examples(CLI::App& app) {
   }
 }
 
-}  // namespace
+/// Not CLI::Range, which lets pass what is not a number.
+std::string is_seconds(const std::string& text) {
+  const double value = rigor::nearest_double(text);
+  return value >= 1e-3 && value <= 1e8 ? std::string()
+                                       : std::string("allowed: a number of seconds from 0.001 to 1e8");
+}
 
-void add_commands(CLI::App& app, Arguments& into) {
+void add_certify(CLI::App& app, Arguments& into) {
   CLI::App* certify =
       app.add_subcommand("certify", "write certificate.md, certificate.json and figures for a design");
   certify->add_option("DESIGN", into.certify.design, "design file (TOML)")->required();
@@ -87,22 +92,18 @@ void add_commands(CLI::App& app, Arguments& into) {
 
   add_renderings(*certify, "certificate.html", into.certify.renderings);
 
-  // Not CLI::Range, which lets pass what is not a number.
-  const auto seconds = [](const std::string& text) {
-    const double value = rigor::nearest_double(text);
-    return value >= 1e-3 && value <= 1e8 ? std::string()
-                                         : std::string("allowed: a number of seconds from 0.001 to 1e8");
-  };
   certify
       ->add_option("--timeout", into.certify.seconds,
                    "end the search of a design with tracker model after so many seconds, and write what is "
                    "proved by then; the verification at the end is not counted")
-      ->check(seconds);
+      ->check(is_seconds);
   certify->add_flag(
       "--no-verify", into.certify.no_verify,
       "do not have the certificate verified by veritrack-verify at the end, which takes seconds, "
       "and minutes for recursions with a large proof");
+}
 
+void add_check(CLI::App& app, Arguments& into) {
   CLI::App* check =
       app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
   check->add_option("DESIGN", into.check.designs, "design files (TOML), or folders of them")->required();
@@ -123,9 +124,11 @@ void add_commands(CLI::App& app, Arguments& into) {
           "--timeout", into.check.seconds,
           "stop each design after so many seconds, its verification included: what is not decided by "
           "then is UNDECIDED")
-      ->check(seconds);
+      ->check(is_seconds);
   check->add_flag("--strict", into.check.strict, "a design that requires nothing is 1, not 0");
+}
 
+void add_diff(CLI::App& app, Arguments& into) {
   CLI::App* diff = app.add_subcommand("diff", "what is better or worse in one certificate than in another");
   diff->add_option("OLD", into.diff.before, "design file (TOML), certificate.json, or its folder")
       ->required();
@@ -139,7 +142,9 @@ void add_commands(CLI::App& app, Arguments& into) {
   diff->add_option("--accept", into.diff.accepted,
                    "a change for the worse that is meant, by its key, such as assume.noise; may be repeated")
       ->allow_extra_args(false);
+}
 
+void add_map(CLI::App& app, Arguments& into) {
   CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
   map->add_option(
          "DESIGN", into.map.design,
@@ -167,20 +172,24 @@ void add_commands(CLI::App& app, Arguments& into) {
       ->check(CLI::Range(1, 200));
   map->add_option("--timeout", into.map.seconds,
                   "stop after so many seconds and write what is proved by then; so does Ctrl-C")
-      ->check(seconds);
+      ->check(is_seconds);
   map->add_flag("--noise", into.map.request.with_noise,
                 "with the noise of [assume], for quadrature-ekf with its slew, too; otherwise without any");
 
   map->add_flag("--html", into.map.request.html,
                 "also write map.html, one page on which each cell of the map tells its values");
+}
 
+void add_show(CLI::App& app, Arguments& into) {
   CLI::App* show = app.add_subcommand(
       "show", "print the recursion of a tracker that is given as a model, or code that computes the same");
   show->add_option("DESIGN", into.show.design, "design file (TOML), tracker model")->required();
   show->add_option("--language", into.show.language, "in which language")
       ->check(CLI::IsMember(veritrack::certificates::code_language_names()))
       ->capture_default_str();
+}
 
+void add_tune(CLI::App& app, Arguments& into) {
   CLI::App* tune =
       app.add_subcommand("tune", "choose design values for the best guarantee, and certify the result");
   tune->add_option("DESIGN", into.tune.design,
@@ -202,10 +211,12 @@ void add_commands(CLI::App& app, Arguments& into) {
       ->capture_default_str();
   tune->add_option("--timeout", into.tune.seconds,
                    "end the search after so many seconds, and certify the best so far; so does Ctrl-C")
-      ->check(seconds);
+      ->check(is_seconds);
   tune->add_flag("--free-leak", into.tune.free_leak,
                  "epsilon, where it is above 0, may change, too, and become 0");
+}
 
+void add_track(CLI::App& app, Arguments& into) {
   CLI::App* track = app.add_subcommand("track", "run the tracker of a design over a recording");
   track->add_option("DESIGN", into.track.design, "design file (TOML)")->required();
   track->add_option("RECORDING", into.track.recording, "CSV or sound file; - is standard input")->required();
@@ -246,24 +257,32 @@ void add_commands(CLI::App& app, Arguments& into) {
   track->add_option("--start-hz", into.track.start_hertz, "the same in Hz")->check(CLI::Range(1e-9, 1e15));
   track->add_flag("--strict", into.track.strict,
                   "1 when lock is lost, or when the recording does not keep to an assumption");
+}
 
+void add_reproduce(CLI::App& app, Arguments& into) {
   CLI::App* reproduce = app.add_subcommand(
       "reproduce",
       "regenerate a report of docs/reports: printed tables and figures beside our simulations, or the "
       "ledger of published claims");
   add_reproduce_options(*reproduce, into.reproduce);
+}
 
-  // These two for help and completions: main() hands the words over unread.
+/// For help and completions: main() hands the words over unread.
+void add_sweep(CLI::App& app, Arguments& into) {
   CLI::App* sweep = app.add_subcommand(
       "sweep", "certify many designs: run SPEC, report SPEC or verify SPEC, by the package for Python");
   sweep->add_option("WORD", into.sweep, "run (may be left out), report or verify; SPEC.toml; options")
       ->required();
+}
 
+void add_explain(CLI::App& app, Arguments& into) {
   CLI::App* explain = app.add_subcommand(
       "explain", "what a claim of a certificate or a key of a design file means; alone, a list of them");
   explain->add_option("WORD", into.explain.words,
                       "the id of a claim, a key with its table (design.q1) or without (q1), or a table");
+}
 
+void add_make_new(CLI::App& app, Arguments& into) {
   CLI::App* make_new =
       app.add_subcommand("new", "write a commented design file to begin with, which is PROVED as it is");
   make_new->add_option("TRACKER", into.new_design.tracker, "the kind of tracker")
@@ -279,10 +298,29 @@ void add_commands(CLI::App& app, Arguments& into) {
           fmt::format("{{{}}}", fmt::join(certificates::templates_for(), ","))));
   make_new->add_option("FILE", into.new_design.output,
                        "the file to write, which must not exist (default: standard output)");
+}
 
+void add_completions(CLI::App& app, Arguments& into) {
   CLI::App* completions =
       app.add_subcommand("completions", "print a script that completes commands in a shell");
   completions->add_option("SHELL", into.shell, "the shell")->required()->check(CLI::IsMember(shell_names()));
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, Arguments& into) {
+  add_certify(app, into);
+  add_check(app, into);
+  add_diff(app, into);
+  add_map(app, into);
+  add_show(app, into);
+  add_tune(app, into);
+  add_track(app, into);
+  add_reproduce(app, into);
+  add_sweep(app, into);
+  add_explain(app, into);
+  add_make_new(app, into);
+  add_completions(app, into);
   app.add_subcommand("manual", "print the manual page, for man");
   add_examples(app);
 }

@@ -152,18 +152,34 @@ std::optional<double> sample_rate_of(const TrackOptions& options, const reports:
   return recorded ? recorded : assume.sample_rate;
 }
 
-}  // namespace
-
-ExitStatus run_track(const TrackOptions& options) {
-  const certificates::Design design = certificates::read_design_file(options.design);
+/// The tracker of the design. Throws certificates::InputError for one that cannot be run.
+certificates::TrackerOnSamples tracker_of(const certificates::Design& design, const std::string& file) {
   const certificates::TrackerKind& kind = certificates::kind_of(design);
   if (kind.track == nullptr) {
     const auto position = design.positions.find("tracker");
     throw certificates::InputError(
-        options.design, position != design.positions.end() ? position->second : certificates::Position{},
+        file, position != design.positions.end() ? position->second : certificates::Position{},
         fmt::format("veritrack track cannot be used with the tracker {}; allowed: {}", design.tracker,
                     certificates::names_of_kinds([](const auto& each) { return each.track != nullptr; })));
   }
+  try {
+    return kind.track(design);
+  } catch (const certificates::NotTrackable& error) {
+    throw certificates::InputError(file, {}, error.what());
+  }
+}
+
+/// In lock all along, and nothing that was tested speaks against an assumption.
+bool is_fine(const reports::TrackReport& report) {
+  const reports::TrackResult& result = report.result;
+  return !result.blocks.empty() ? reports::blocks_are_in_lock(result)
+                                : result.first_lock && !result.lost_lock && reports::keeps_to_tested(report);
+}
+
+}  // namespace
+
+ExitStatus run_track(const TrackOptions& options) {
+  const certificates::Design design = certificates::read_design_file(options.design);
   const bool is_stream = options.recording == "-";
   const fs::path recording = is_stream ? fs::path(kStandardInput) : fs::path(options.recording);
   const bool by_name = options.directory.empty();
@@ -172,13 +188,7 @@ ExitStatus run_track(const TrackOptions& options) {
   }
   const fs::path directory = by_name ? default_folder("tracks-out", recording) : fs::path(options.directory);
 
-  certificates::TrackerOnSamples tracker = [&] {
-    try {
-      return kind.track(design);
-    } catch (const certificates::NotTrackable& error) {
-      throw certificates::InputError(options.design, {}, error.what());
-    }
-  }();
+  certificates::TrackerOnSamples tracker = tracker_of(design, options.design);
   auto heard = std::make_unique<reports::OverheardSource>(reports::open_recording(request_of(options)));
   reports::OverheardSource& overheard = *heard;
   const int recorded = std::min(heard->channels(), tracker.tracker->channels());
@@ -239,11 +249,7 @@ ExitStatus run_track(const TrackOptions& options) {
   }
   fmt::print(options.each == "-" ? stderr : stdout, "{}: {}\n", files.document.string(),
              reports::headline(report));
-  const reports::TrackResult& result = report.result;
-  const bool is_fine = !result.blocks.empty()
-                           ? reports::blocks_are_in_lock(result)
-                           : result.first_lock && !result.lost_lock && reports::keeps_to_tested(report);
-  return options.strict && !is_fine ? not_proved : all_proved;
+  return options.strict && !is_fine(report) ? not_proved : all_proved;
 }
 
 }  // namespace veritrack::cli

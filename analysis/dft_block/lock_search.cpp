@@ -53,6 +53,76 @@ std::vector<PointVector> directions(int count) {
   return result;
 }
 
+/// Room that a proposal leaves for its proof.
+constexpr double kDriftRoom = 1.1;
+
+/// A step from one error, in the frame of the set.
+struct DriftSample {
+  PointMatrix step, secant, factor, gain, spread, turned;
+};
+
+/// I - tilt F X N N'X F', at least.
+PointMatrix left_over(const DriftSample& one, double weight) {
+  const PointMatrix unit = PointMatrix::Identity();
+  const PointMatrix inner = unit - weight * one.factor.transpose() * one.spread * one.factor;
+  return unit - one.turned / weight - one.gain * inner.inverse() * one.gain.transpose();
+}
+
+/// By how much the tilted expectation of the squared error grows from these errors, at most.
+double growth_of(const std::vector<DriftSample>& samples, double weight) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  const PointMatrix unit = PointMatrix::Identity();
+  double most = 0.0;
+  for (const DriftSample& one : samples) {
+    const PointMatrix seen = one.factor.transpose() * one.spread;
+    Matrix6 right;
+    right << unit - one.turned / weight, one.gain, one.gain.transpose(), unit - weight * seen * one.factor;
+    const Eigen::LLT<Matrix6> root(right);
+    if (root.info() != Eigen::Success) {
+      return std::numeric_limits<double>::infinity();
+    }
+    Eigen::Matrix<double, 6, 3> below;
+    below << one.step, weight * seen * one.secant;
+    const PointMatrix all =
+        weight * one.secant.transpose() * one.spread * one.secant + below.transpose() * root.solve(below);
+    most = std::max(most, -smallest_eigenvalue(-all));
+  }
+  return most;
+}
+
+/// With the weight for which it is least.
+void choose_growth(const std::vector<DriftSample>& samples, LockDrift& drift) {
+  drift.growth = std::numeric_limits<double>::infinity();
+  for (double weight = 0.3; weight < 8.0; weight *= 1.35) {
+    const double found = growth_of(samples, weight);
+    if (found < drift.growth) {
+      drift.growth = found;
+      drift.weight = weight;
+    }
+  }
+  drift.growth *= kDriftRoom;
+}
+
+/// The largest one of the shape that `middle` has; false when there is none.
+bool choose_floor(const std::vector<DriftSample>& samples, const DriftSample& middle, LockDrift& drift) {
+  double best = 0.0;
+  for (double weight = 0.1; weight < 8.0; weight *= 1.5) {
+    const PointMatrix shape = left_over(middle, weight);
+    double below = 0.0;
+    for (const DriftSample& one : samples) {
+      below = std::max(below, -smallest_eigenvalue(left_over(one, weight) - shape));
+    }
+    constexpr double kMargin = 0.03;
+    const PointMatrix floor = shape - (below * kDriftRoom + kMargin) * PointMatrix::Identity();
+    if (smallest_eigenvalue(floor) > 0.0 && floor.determinant() > best) {
+      best = floor.determinant();
+      drift.floor = 0.5 * (floor + floor.transpose());
+      drift.floor_weight = weight;
+    }
+  }
+  return best > 0.0;
+}
+
 }  // namespace
 
 LockSearch::LockSearch(const LockProblem& problem)
@@ -248,12 +318,7 @@ std::optional<LockRate> LockSearch::rate_for(const LockSet& set, double radius) 
 
 std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius, double tilt) const {
   const rigor::NearestRounding nearest;
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const PointMatrix unit = PointMatrix::Identity();
-  struct Sample {
-    PointMatrix step, secant, factor, gain, spread, turned;
-  };
-  std::vector<Sample> samples;
   const PointMatrix turn = frame_.inverse() * turn_ * frame_;
   const auto sample_at = [&](double amplitude, const PointVector& error, double offset) {
     const PointMatrix j =
@@ -265,9 +330,11 @@ std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius
     const PointMatrix secant_here = frame_.transpose() * secant(amplitude, error, offset) * frame_;
     const PointMatrix root = Eigen::LLT<PointMatrix>(j).matrixL();
     const PointMatrix factor = std::sqrt(tilt) * root;
-    return Sample{turn * (unit - centre * secant_here), secant_here, factor, turn * centre * factor, spread,
-                  turn * spread * turn.transpose()};
+    return DriftSample{
+        turn * (unit - centre * secant_here), secant_here, factor, turn * centre * factor, spread,
+        turn * spread * turn.transpose()};
   };
+  std::vector<DriftSample> samples;
   constexpr int kDirections = 40;
   constexpr int kOffsets = 4;
   for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
@@ -281,64 +348,14 @@ std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius
       break;
     }
   }
-  // I - tilt F X N N'X F', at least.
-  const auto left_over = [&](const Sample& one, double weight) -> PointMatrix {
-    const PointMatrix inner = unit - weight * one.factor.transpose() * one.spread * one.factor;
-    return unit - one.turned / weight - one.gain * inner.inverse() * one.gain.transpose();
-  };
-  const auto growth_of = [&](double weight) {
-    double most = 0.0;
-    for (const Sample& one : samples) {
-      const PointMatrix seen = one.factor.transpose() * one.spread;
-      Matrix6 right;
-      right << unit - one.turned / weight, one.gain, one.gain.transpose(), unit - weight * seen * one.factor;
-      const Eigen::LLT<Matrix6> root(right);
-      if (root.info() != Eigen::Success) {
-        return std::numeric_limits<double>::infinity();
-      }
-      Eigen::Matrix<double, 6, 3> below;
-      below << one.step, weight * seen * one.secant;
-      const PointMatrix all =
-          weight * one.secant.transpose() * one.spread * one.secant + below.transpose() * root.solve(below);
-      most = std::max(most, -smallest_eigenvalue(-all));
-    }
-    return most;
-  };
   LockDrift drift;
   drift.radius = radius;
   drift.tilt = tilt;
-  drift.growth = std::numeric_limits<double>::infinity();
-  for (double weight = 0.3; weight < 8.0; weight *= 1.35) {
-    const double found = growth_of(weight);
-    if (found < drift.growth) {
-      drift.growth = found;
-      drift.weight = weight;
-    }
-  }
-  constexpr double kRoom = 1.1;
-  drift.growth *= kRoom;
-  if (!(drift.growth < 1.0)) {
-    return std::nullopt;
-  }
+  choose_growth(samples, drift);
   // The floor has the shape of that of the exact lock in the middle.
-  const Sample middle = sample_at(0.5 * (model_.amplitude_low + model_.amplitude_high), PointVector::Zero(),
-                                  0.5 * (model_.offset_low + model_.offset_high));
-  double best = 0.0;
-  for (double weight = 0.1; weight < 8.0; weight *= 1.5) {
-    const PointMatrix shape = left_over(middle, weight);
-    double below = 0.0;
-    for (const Sample& one : samples) {
-      below = std::max(below, -smallest_eigenvalue(left_over(one, weight) - shape));
-    }
-    constexpr double kMargin = 0.03;
-    const PointMatrix floor = shape - (below * kRoom + kMargin) * unit;
-    if (smallest_eigenvalue(floor) > 0.0 && floor.determinant() > best) {
-      best = floor.determinant();
-      drift.floor = 0.5 * (floor + floor.transpose());
-      drift.floor_weight = weight;
-    }
-  }
-  return best > 0.0 ? std::optional(drift) : std::nullopt;
+  const DriftSample middle = sample_at(0.5 * (model_.amplitude_low + model_.amplitude_high),
+                                       PointVector::Zero(), 0.5 * (model_.offset_low + model_.offset_high));
+  return drift.growth < 1.0 && choose_floor(samples, middle, drift) ? std::optional(drift) : std::nullopt;
 }
 
 }  // namespace veritrack::dft_block

@@ -27,22 +27,9 @@ using theorems::Statement;
 using theorems::Strictness;
 using Whole = std::int64_t;
 
-std::vector<Statement> steps_of_the_proof() {
-  const Verdict rearranged = is_zero_polynomial<6>(
-      [](const std::array<Whole, 6>& p) {
-        const auto [rate, x1, x2, x3, a, b] = p;
-        return rate * x1 + x2 - (rate * rate + x3) * (a * rate + b) -
-               (rate * (x1 - a * x3) + (x2 - b * x3) - rate * rate * rate * a - rate * rate * b);
-      },
-      3);
-  const Verdict mean = is_zero_polynomial<4>(
-      [](const std::array<Whole, 4>& p) {
-        const auto [xa, xb, sa, sb] = p;  // x1 or x2 of both, x3 of both
-        return 2 * (sb * xa - sa * xb) - (xa + xb) * (sb - sa) - (sa + sb) * (xa - xb);
-      },
-      2);
-  // det(L'L) of five filters, L = (λ, 1, -ξ), with the rates 0, 1, 2, 3, 4: a polynomial in ξ of degree 2.
-  const Verdict triples = is_zero_polynomial<5>(
+/// det(L'L) of five filters, L = (λ, 1, -ξ), with the rates 0, 1, 2, 3, 4: a polynomial in ξ of degree 2.
+Verdict sums_triples() {
+  return is_zero_polynomial<5>(
       [](const std::array<Whole, 5>& xi) {
         Whole ll = 0;
         Whole l1 = 0;
@@ -68,6 +55,23 @@ std::vector<Statement> steps_of_the_proof() {
         return ll * (5 * xx - ox * ox) - l1 * (l1 * xx - ox * lx) + lx * (l1 * ox - 5 * lx) - sum;
       },
       2);
+}
+
+std::vector<Statement> steps_of_the_proof() {
+  const Verdict rearranged = is_zero_polynomial<6>(
+      [](const std::array<Whole, 6>& p) {
+        const auto [rate, x1, x2, x3, a, b] = p;
+        return rate * x1 + x2 - (rate * rate + x3) * (a * rate + b) -
+               (rate * (x1 - a * x3) + (x2 - b * x3) - rate * rate * rate * a - rate * rate * b);
+      },
+      3);
+  const Verdict mean = is_zero_polynomial<4>(
+      [](const std::array<Whole, 4>& p) {
+        const auto [xa, xb, sa, sb] = p;  // x1 or x2 of both, x3 of both
+        return 2 * (sb * xa - sa * xb) - (xa + xb) * (sb - sa) - (sa + sb) * (xa - xb);
+      },
+      2);
+  const Verdict triples = sums_triples();
   return {
       make_statement(
           "kkl-paper/more-filters",

@@ -39,6 +39,15 @@ double largest_absolute_eigenvalue(const Eigen::Ref<const Eigen::MatrixXd>& symm
   return of_values(symmetric, [](const auto& values) { return values.cwiseAbs().maxCoeff(); });
 }
 
+Eigen::MatrixXd symmetric_eigenvectors(const Eigen::Ref<const Eigen::MatrixXd>& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors();
+}
+
+Eigen::MatrixXd pencil_eigenvectors(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                    const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(a, b).eigenvectors();
+}
+
 Eigensystem symmetric_eigensystem(const Eigen::Ref<const Eigen::MatrixXd>& symmetric) {
   const Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(small(symmetric));
   return {solver.eigenvalues(), solver.eigenvectors()};
@@ -52,6 +61,10 @@ Eigensystem pencil_eigensystem(const Eigen::Ref<const Eigen::MatrixXd>& a,
 
 double spectral_radius(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   return small(matrix).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double largest_argument(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
+  return small(matrix).eigenvalues().cwiseArg().cwiseAbs().maxCoeff();
 }
 
 DominantMode dominant_mode(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {

@@ -18,6 +18,12 @@ using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostSmallRows, 
 /// The largest |eigenvalue|.
 [[nodiscard]] double largest_absolute_eigenvalue(const Eigen::Ref<const Eigen::MatrixXd>& symmetric);
 
+/// The eigenvectors of a symmetric matrix of any size, of length 1, a column for each, by ascending eigenvalue.
+[[nodiscard]] Eigen::MatrixXd symmetric_eigenvectors(const Eigen::Ref<const Eigen::MatrixXd>& symmetric);
+/// Those of A v = t B v, B positive definite; v'B v = 1.
+[[nodiscard]] Eigen::MatrixXd pencil_eigenvectors(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                                  const Eigen::Ref<const Eigen::MatrixXd>& b);
+
 /// These take matrices of up to kMostSmallRows rows, and throw std::length_error for others.
 struct Eigensystem {
   SmallVector values;   ///< ascending
@@ -30,6 +36,9 @@ struct Eigensystem {
 
 /// The largest |eigenvalue| of a square matrix.
 [[nodiscard]] double spectral_radius(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
+
+/// The largest |argument| of an eigenvalue, radians.
+[[nodiscard]] double largest_argument(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
 /// The eigenvalue of the largest size, and its eigenvector v, A v = t v: of a pair of complex ones the sizes
 /// of the entries.

@@ -1,10 +1,10 @@
 #include "analysis/rigor/definiteness.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/eigenvalues.hpp"
 
 namespace veritrack::rigor::detail {
@@ -96,7 +96,7 @@ bool is_witness(const DynamicIntervalMatrix& a, const Eigen::VectorXd& x) {
 /// Directions in which the midpoint is least positive.
 DynamicMatrix propose_directions(const DynamicIntervalMatrix& a) {
   const NearestRounding nearest;
-  return Eigen::SelfAdjointEigenSolver<DynamicMatrix>(midpoint(a)).eigenvectors();
+  return symmetric_eigenvectors(midpoint(a));
 }
 
 /// x with its largest entry 1 and the others rounded to a grid: exact where the data are small rationals.

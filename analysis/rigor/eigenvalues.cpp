@@ -1,10 +1,10 @@
 #include "analysis/rigor/eigenvalues.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/norms.hpp"
 
 namespace veritrack::rigor::detail {
@@ -83,9 +83,7 @@ std::optional<DynamicIntervalMatrix> generalized_eigenvalues(const DynamicInterv
   }
   const DynamicMatrix vectors = [&]() -> DynamicMatrix {
     const NearestRounding nearest;
-    return Eigen::GeneralizedSelfAdjointEigenSolver<DynamicMatrix>(midpoint(a_symmetric),
-                                                                   midpoint(b_symmetric))
-        .eigenvectors();
+    return pencil_eigenvectors(midpoint(a_symmetric), midpoint(b_symmetric));
   }();
   return eigenvalues_through_vectors(a_symmetric, b_symmetric, vectors);
 }
@@ -99,7 +97,7 @@ std::optional<DynamicIntervalMatrix> symmetric_eigenvalues(const DynamicInterval
   const DynamicMatrix middle = midpoint(members);
   const DynamicMatrix vectors = [&]() -> DynamicMatrix {
     const NearestRounding nearest;
-    return Eigen::SelfAdjointEigenSolver<DynamicMatrix>(middle).eigenvectors();
+    return symmetric_eigenvectors(middle);
   }();
   const DynamicIntervalMatrix identity = DynamicIntervalMatrix::Identity(a.rows(), a.cols());
   std::optional<DynamicIntervalMatrix> direct = eigenvalues_through_vectors(members, identity, vectors);

@@ -1,9 +1,10 @@
 #include "analysis/rigor/norms.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "analysis/rigor/decompositions.hpp"
 
 namespace veritrack::rigor::detail {
 
@@ -69,7 +70,7 @@ std::optional<double> finite(double value) {
 DynamicMatrix propose_singular_vectors(const DynamicIntervalMatrix& a) {
   const NearestRounding nearest;
   const DynamicMatrix middle = midpoint(a);
-  return Eigen::SelfAdjointEigenSolver<DynamicMatrix>(middle.transpose() * middle).eigenvectors();
+  return symmetric_eigenvectors(middle.transpose() * middle);
 }
 
 /// |A v| / |v| for a non-zero point vector v.

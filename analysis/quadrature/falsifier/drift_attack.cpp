@@ -1,11 +1,12 @@
 #include "analysis/quadrature/falsifier/drift_attack.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/search/maximize.hpp"
 #include "trackers/signals/random.hpp"
@@ -45,8 +46,7 @@ class LockFunction {
 
   [[nodiscard]] double covariance_level(const Matrix3d& p) const {
     const auto largest = [](const Matrix3d& x, const Matrix3d& y) {
-      return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d>(x, y, Eigen::EigenvaluesOnly)
-          .eigenvalues()[2];
+      return rigor::pencil_eigensystem(x, y).values[2];
     };
     return std::max({0.0, largest(p - centre_, above_), largest(p.inverse() - centre_inverse_, below_)});
   }
@@ -107,7 +107,8 @@ DriftPoint point_of(const LockSet& set, const LockFunction& function, const Eige
   const Matrix3d share = turn * x.segment<3>(8).array().sin().matrix().asDiagonal() * turn.transpose();
   const Matrix3d low = function.low(s);
   const Matrix3d half = 0.5 * (function.high(s) - low);
-  const Matrix3d root = Eigen::SelfAdjointEigenSolver<Matrix3d>(half).operatorSqrt();
+  const rigor::Eigensystem eigen = rigor::symmetric_eigensystem(half);
+  const Matrix3d root = eigen.vectors * eigen.values.cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
   const Matrix3d p = low + half + root * share * root;
   return {function.error_of(radius * direction.head<3>()), 0.5 * (p + p.transpose())};
 }

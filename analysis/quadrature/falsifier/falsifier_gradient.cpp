@@ -1,6 +1,6 @@
 #include "analysis/quadrature/falsifier/falsifier_gradient.hpp"
+#include "analysis/rigor/decompositions.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -56,11 +56,7 @@ double own_frequency(const SetClaim& claim, int steps) {
                       .head<3>()
                       .transpose();
   }
-  double frequency = 0.0;
-  for (const auto& eigenvalue : Eigen::EigenSolver<Eigen::Matrix3d>(loop, false).eigenvalues()) {
-    frequency = std::max(frequency, std::abs(std::arg(eigenvalue)));
-  }
-  return frequency;
+  return rigor::largest_argument(loop);
 }
 
 }  // namespace veritrack::quadrature

@@ -1,7 +1,6 @@
 #include "analysis/quadrature/falsifier/falsifier_run.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -97,11 +97,11 @@ Eigen::Matrix3d SetClaim::covariance_at(const Eigen::Matrix3d& share, bool at_ce
 
 Eigen::Matrix3d SetClaim::share_along(const Eigen::Matrix3d& lambda) const {
   // The projection on the eigenvectors of C' Lambda C with positive eigenvalues.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(root_.transpose() * lambda * root_);
+  const rigor::Eigensystem eigen = rigor::symmetric_eigensystem(root_.transpose() * lambda * root_);
   Eigen::Matrix3d share = Eigen::Matrix3d::Zero();
   for (int i = 0; i < 3; ++i) {
-    if (eigen.eigenvalues()[i] > 0.0) {
-      share += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
+    if (eigen.values[i] > 0.0) {
+      share += eigen.vectors.col(i) * eigen.vectors.col(i).transpose();
     }
   }
   return share;

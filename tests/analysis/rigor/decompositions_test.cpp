@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "tests/support/random.hpp"
@@ -20,6 +21,7 @@ TEST_CASE("eigensystems satisfy their equations") {
     const Eigen::MatrixXd any = random_matrix(random, n);
     const Eigen::MatrixXd a = any + any.transpose();
     const Eigensystem system = symmetric_eigensystem(a);
+    CHECK((symmetric_eigenvectors(a) - system.vectors).norm() < 1e-9 * n);
     CHECK((a * system.vectors - system.vectors * system.values.asDiagonal()).norm() < 1e-12 * n);
     CHECK(largest_eigenvalue(a) == doctest::Approx(system.values[n - 1]).epsilon(1e-12));
     CHECK(least_eigenvalue(a) == doctest::Approx(system.values[0]).epsilon(1e-12));
@@ -27,6 +29,7 @@ TEST_CASE("eigensystems satisfy their equations") {
           doctest::Approx(std::max(-system.values[0], system.values[n - 1])).epsilon(1e-12));
     const Eigen::MatrixXd b = any * any.transpose() + Eigen::MatrixXd::Identity(n, n);
     const Eigensystem pencil = pencil_eigensystem(a, b);
+    CHECK((pencil_eigenvectors(a, b) - pencil.vectors).norm() < 1e-9 * n);
     CHECK((a * pencil.vectors - b * pencil.vectors * pencil.values.asDiagonal()).norm() < 1e-11 * n);
     CHECK((pencil.vectors.transpose() * b * pencil.vectors - Eigen::MatrixXd::Identity(n, n)).norm() <
           1e-11 * n);
@@ -37,6 +40,7 @@ TEST_CASE("the spectral radius and its mode, of a rotation and of a triangle") {
   Eigen::Matrix3d rotation;
   rotation << 0.6, -0.8, 0.0, 0.8, 0.6, 0.0, 0.0, 0.0, 0.5;
   CHECK(spectral_radius(rotation) == doctest::Approx(1.0));
+  CHECK(largest_argument(rotation) == doctest::Approx(std::atan2(0.8, 0.6)));
   const DominantMode turned = dominant_mode(rotation);
   CHECK(turned.radius == doctest::Approx(1.0));
   CHECK(turned.vector[0] == doctest::Approx(turned.vector[1]));

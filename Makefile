@@ -36,6 +36,8 @@ JOBS         ?= $(shell nproc)
 FUZZ_SECONDS ?= 30
 # nightly: with the tests that take long and rarely fail
 TEST_PRESET  ?= release
+# How long random tests are: .ci/nightly draws more.
+VERITRACK_TEST_EFFORT ?= 0.3
 # The same paths each time, so that what lands does not hang on a draw; the nightly run draws.
 FUZZ_SEED ?= 1
 SANITIZED_EFFORT ?= 0.02
@@ -94,7 +96,7 @@ test:
 	  $(if $(filter nightly,$(TEST_PRESET)),$(PYTHON_NIGHTLY_PACKAGES))
 	cmake --preset release -DVERITRACK_BUILD_TESTS=ON -DVERITRACK_BUILD_PYTHON=ON -DVERITRACK_TRACKERS=
 	cmake --build --preset release --parallel $(JOBS)
-	ctest --preset $(TEST_PRESET) --parallel $(JOBS)
+	VERITRACK_TEST_EFFORT=$(VERITRACK_TEST_EFFORT) ctest --preset $(TEST_PRESET) --parallel $(JOBS)
 
 lint:
 	@scripts/install-packages $(BUILD_PACKAGES) $(LINT_PACKAGES)

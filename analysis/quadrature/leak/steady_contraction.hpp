@@ -33,8 +33,8 @@ class SteadyDivision {
 
   SteadyDivision() : nodes_(1) {}
 
-  /// Is the cell to be cut without being examined again? Yes where it failed at a slightly higher level and
-  /// its parts were cut, too.
+  /// Is the cell to be cut without being examined again? Yes where it failed at a slightly higher level, or
+  /// where its parts were cut, too.
   [[nodiscard]] bool skips(std::size_t node, double level) const;
   /// The cell is proved: it needs no parts.
   void close(std::size_t node) { nodes_[node].first = 0; }

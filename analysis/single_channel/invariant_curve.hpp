@@ -14,13 +14,14 @@
 //   (c)  kappa R + rho <= R.
 // Then the tube is mapped into itself and contains exactly one invariant curve, which is continuous and stays
 // within rho / (1 - kappa) of C (in the same coordinates), and every start in the tube converges to it by the
-// factor kappa a sample. Proof. For fixed phi the fibre {|u| <= R} is convex, so (b) bounds the distance of
-// images by kappa times the distance, and with (a) and (c) the fibre over phi goes into that over phi +
-// omega. Hence the graph transform, which maps a function phi -> X(phi) with values in the tube to phi +
-// omega -> G_phi(X(phi)), is a contraction of the functions with values in the tube, complete in the supremum
-// of |u|; it maps continuous functions to continuous ones, and C is one of them; its fixed point is X*. |X* -
-// C| <= kappa |X* - C| + rho. QED For an interval of frequencies C depends on omega too, and (a) to (c) are
-// verified for all of them at once.
+// factor kappa a sample.
+// Proof. For fixed phi the fibre {|u| <= R} is convex, so (b) bounds the distance of images by kappa times
+// the distance, and with (a) and (c) the fibre over phi goes into that over phi + omega. Hence the graph
+// transform, which maps a function phi -> X(phi) with values in the tube to phi + omega -> G_phi(X(phi)), is
+// a contraction of the functions with values in the tube, complete in the supremum of |u|; it maps continuous
+// functions to continuous ones, and C is one of them; its fixed point is X*. |X* - C| <= kappa |X* - C| +
+// rho. QED
+// For an interval of frequencies C depends on omega too, and (a) to (c) are verified for all of them at once.
 //
 // Without a leak {delta = nu = 0} is mapped into itself (a test checks this), so with a C whose components
 // there are zero the graph transform keeps them zero: the error part of X* is exactly zero.

@@ -1,4 +1,4 @@
-// What the command line says: the commands with their options, and help for each.
+// The command line: the commands with their options, and help for each.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// What `veritrack check` tells: lines on the standard streams, and reports.
+// The output of `veritrack check`: lines on the standard streams, and reports.
 #pragma once
 
 #include <string>
@@ -13,13 +13,12 @@ namespace veritrack::cli {
 /// output; for GitHub an annotation as well.
 void print_checked(const reports::CheckedDesign& design);
 
-/// The reports that cannot be written, of those that are asked for. None is written, and none may be one of
-/// the designs.
+/// The requested reports that cannot be written. This writes none; no report may be one of the designs.
 [[nodiscard]] std::vector<reports::CheckedDesign> unwritable_reports(const CheckOptions& options,
                                                                      const std::vector<std::string>& designs);
 
-/// Writes the reports, but for those of which `checked` says that they cannot be written. What turns out to
-/// be another one of them is printed and added to `checked`, and is in the others.
+/// Writes the reports, except those that `checked` says cannot be written. A further report that turns out to
+/// be one of these is printed, added to `checked`, and named in the others.
 void write_reports(const CheckOptions& options, std::vector<reports::CheckedDesign>& checked);
 
 }  // namespace veritrack::cli

@@ -24,7 +24,7 @@ struct CommandWords {
   std::vector<OptionWords> options;
 };
 
-/// What stands before the commands: the options of the program itself.
+/// The options of the program itself, which come before the commands.
 [[nodiscard]] CommandWords words_of_program(const CLI::App& app);
 /// All commands in the order of the help.
 [[nodiscard]] std::vector<CommandWords> words_of_commands(const CLI::App& app);

@@ -31,7 +31,7 @@ struct CheckOptions {
   bool strict = false;    ///< a design that requires nothing is not_proved
   double seconds = 0.0;   ///< for each design, after which it is stopped; 0: never
   int jobs = 0;           ///< designs at a time; 0: as many as there are cores
-  bool verify = false;    ///< what the checker refuses is UNDECIDED
+  bool verify = false;    ///< a claim that the checker refuses is UNDECIDED
   bool no_cache = false;  ///< verdicts of an earlier run of this program are not used
   bool quiet = false;     ///< no progress on standard error
 };
@@ -40,7 +40,7 @@ struct DiffOptions {
   std::string before;  ///< a design file, a certificate.json, or its folder
   std::string after;
   std::string tolerance = "0.001";    ///< relative changes up to it count as none
-  std::vector<std::string> accepted;  ///< keys of what is worse and meant
+  std::vector<std::string> accepted;  ///< keys of intended changes for the worse
   bool quiet = false;                 ///< no progress on standard error
 };
 
@@ -48,7 +48,7 @@ struct MapOptions {
   std::string design;
   std::string directory;
   reports::MapRequest request;
-  double seconds = 0.0;  ///< after which what is known so far is written; 0: never
+  double seconds = 0.0;  ///< after which the results so far are written; 0: never
   bool quiet = false;    ///< no progress on standard error
 };
 
@@ -60,7 +60,7 @@ struct ShowOptions {
 struct TuneOptions {
   std::string design;
   std::string output;
-  std::string objective;        ///< empty: the first that fits what is assumed
+  std::string objective;        ///< empty: the first that fits the assumptions
   std::string directory;        ///< for the certificate; empty: by the name of the output
   int designs = 60;             ///< that the search looks at, at most
   double seconds = 0.0;         ///< after which the search ends; 0: never
@@ -90,7 +90,7 @@ struct TrackOptions {
 };
 
 struct ExplainOptions {
-  std::vector<std::string> words;  ///< none: everything that is explained is listed
+  std::vector<std::string> words;  ///< none: all explained words are listed
 };
 
 struct NewOptions {

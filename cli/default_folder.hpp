@@ -6,7 +6,7 @@
 namespace veritrack::cli {
 
 /// `parent`/<name of the design file>. Throws certificates::OutputError when that folder holds the results of
-/// another design file of the same name, which still exists: they are not overwritten unasked.
+/// another design file of the same name, which still exists: they are not overwritten.
 [[nodiscard]] std::filesystem::path default_folder(const std::filesystem::path& parent,
                                                    const std::filesystem::path& design);
 

@@ -1,4 +1,4 @@
-// Ctrl-C as a wish to have what is known so far.
+// Ctrl-C as a request for the results so far.
 #pragma once
 
 #include <atomic>

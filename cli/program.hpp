@@ -1,12 +1,12 @@
-// What a program of ours does around its work.
+// The frame around the work of each of our programs.
 #pragma once
 
 #include <string>
 
 namespace veritrack::cli {
 
-/// Runs `run` and returns its exit status, which errors have as well: their messages go to standard error.
-/// What was printed to standard output arrives, or the status is not zero.
+/// Runs `run` and returns its exit status, or that of an error, whose message goes to standard error. The
+/// output to standard output arrives, or the status is not zero.
 [[nodiscard]] int run_program(int argc, char** argv, int (*run)(int argc, char** argv));
 
 /// Whether the self-test of the interval arithmetic passes. Prints why it does not.

@@ -13,8 +13,8 @@
 namespace veritrack::cli {
 
 /// A progress line on standard error for long work, if standard error is a terminal and --quiet is not given.
-/// With `work`, "certifying", it says so and counts the seconds from the third on, as long as nothing else is
-/// told; this takes a thread, which a process that forks must not have.
+/// With `work`, "certifying", it says so and counts the seconds from the third on, until there is other
+/// progress to show; this takes a thread, which a process that forks must not have.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet, std::string work = {});
@@ -25,7 +25,7 @@ class ProgressLine {
   ProgressLine& operator=(ProgressLine&&) = delete;
 
   void operator()(const certificates::Progress& progress) const;
-  /// Of several pieces of work.
+  /// The progress of several pieces of work.
   template <std::integral Count>
   void operator()(Count done, Count most, const char* of_what = "designs certified") const {
     tell(std::to_string(done) + " of " + std::to_string(most) + " " + of_what);

@@ -18,7 +18,7 @@ struct ReproduceOptions {
   int seeds = 0;  ///< 0: the number used for the report in docs/reports
 };
 
-/// `reports`: their names and what they are about, the first the default; none where they are not known.
+/// `reports`: their names and subjects, the first the default; empty where they are not known.
 void add_reproduce_options(CLI::App& command, ReproduceOptions& into,
                            const std::vector<std::pair<std::string, std::string>>& reports = {});
 

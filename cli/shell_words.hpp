@@ -1,4 +1,4 @@
-// What shells and manual pages say of the command line, written from the commands themselves.
+// Shell completions and manual pages, generated from the commands.
 #pragma once
 
 #include <CLI/CLI.hpp>

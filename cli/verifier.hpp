@@ -31,8 +31,7 @@ class Verifier {
   std::filesystem::path path_;
 };
 
-/// "veritrack-verify refuses 4 of 100 parts: contraction (radius: ...); ...", or why it gave no answer: of
-/// what is refused.
+/// "veritrack-verify refuses 4 of 100 parts: contraction (radius: ...); ...", or why it gave no answer.
 [[nodiscard]] std::string refusal_sentence(const certificates::Verification& verification);
 
 }  // namespace veritrack::cli

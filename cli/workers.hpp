@@ -1,4 +1,4 @@
-// Work done by processes of its own, so that one that fails or takes too long does not harm the others.
+// Work in separate processes, so that one that fails or takes too long does not harm the others.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace veritrack::cli {
 /// How a piece of work ended.
 struct WorkerResult {
   enum class End {
-    done,         ///< `text` is what the work returned
+    done,         ///< `text` is the result of the work
     stopped,      ///< it took longer than its limit
     untrustable,  ///< rigor::RoundingModeError: this machine's arithmetic cannot be trusted
     failed        ///< `text` says how, in a line

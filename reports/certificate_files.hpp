@@ -20,7 +20,7 @@ struct CertificateFiles {
   certificates::Verification verification = {};
 };
 
-/// What the checker reads, before it stands in a folder.
+/// The files that the checker reads, before they are written to a folder.
 struct TextsToVerify {
   std::string certificate;                                          ///< certificate.json
   std::string design;                                               ///< the design file

@@ -8,8 +8,8 @@
 
 namespace veritrack::reports {
 
-/// A table of numbers, with words in some of its columns. What is drawn and what is written to a file are the
-/// same doubles: nine digits of them in the picture, all of them in the file.
+/// A table of numbers, with words in some of its columns. The picture and the file have the same doubles:
+/// with nine digits in the picture, with all of them in the file.
 class FigureTable {
  public:
   using Cell = std::variant<double, std::string>;
@@ -27,7 +27,7 @@ class FigureTable {
   void next_index();
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// Rows that are no gaps.
+  /// Rows that are not gaps.
   [[nodiscard]] std::size_t size() const;
 
   /// "$name << END ... END": for a script, before `plot $name using ...`. Never empty, which gnuplot refuses.
@@ -41,7 +41,7 @@ class FigureTable {
   std::vector<std::vector<Cell>> rows_;  // an empty row is an empty line of the block
 };
 
-/// The text as a string of a gnuplot script, quotes included: whatever is in it, it is no command.
+/// The text as a string of a gnuplot script, quotes included: no part of it can act as a command.
 [[nodiscard]] std::string gnuplot_text(std::string_view text);
 
 /// A field of CSV: in quotes where it has a comma, a quote or a line end.

@@ -10,13 +10,12 @@
 namespace veritrack::reports {
 
 struct Figure {
-  std::string file;     ///< name of the file, e.g. "error.svg"
-  std::string caption;  ///< what is seen, with units
-  std::string script;   ///< draws it, for gnuplot (gnuplot.hpp)
-  std::string title =
-      {};  ///< what it shows, in a few words: the title of the SVG, and the text instead of it
+  std::string file;        ///< name of the file, e.g. "error.svg"
+  std::string caption;     ///< the contents, with units
+  std::string script;      ///< draws it, for gnuplot (gnuplot.hpp)
+  std::string title = {};  ///< its subject, in a few words: the title of the SVG, and the alternative text
   std::vector<FigureTable> data = {};  ///< the numbers in it
-  std::string values = {};  ///< of a map, what is under the pointer: JSON (map_values.hpp); or none
+  std::string values = {};  ///< for a map, the values under the pointer: JSON (map_values.hpp); or none
   std::string svg = {};     ///< the picture; empty until it is drawn
 };
 
@@ -25,7 +24,7 @@ struct Figure {
 [[nodiscard]] std::vector<Figure> with_pictures(std::vector<Figure> figures);
 [[nodiscard]] Figure with_picture(Figure figure);
 
-/// The figures that certificates of this kind of tracker have, drawn; none when it has none. Throws
+/// The figures that certificates of this kind of tracker have, drawn; empty when it has none. Throws
 /// FigureError.
 [[nodiscard]] std::vector<Figure> draw_figures(const certificates::Certificate& certificate);
 

@@ -15,11 +15,11 @@ class FigureError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What gnuplot writes to its standard output when it executes `script`. The script chooses the terminal.
-/// Throws FigureError.
+/// The standard output of gnuplot when it executes `script`. The script chooses the terminal. Throws
+/// FigureError.
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
 
-/// A picture to be drawn, and what it is called where it cannot be.
+/// A picture to be drawn, and its name for the message when that fails.
 struct GnuplotScript {
   std::string name;
   std::string text;  ///< sets the terminal svg
@@ -33,7 +33,7 @@ struct GnuplotScript {
 /// mirror, a key below), before labels and data.
 [[nodiscard]] std::string gnuplot_style(std::size_t height);
 
-/// "gnuplot 5.4 patchlevel 4", or the like: what drew the picture, by what it says of itself. Throws
+/// "gnuplot 5.4 patchlevel 4", or the like: the program that drew the picture, by its own words. Throws
 /// FigureError when it says nothing.
 [[nodiscard]] std::string gnuplot_version(std::string_view svg);
 

@@ -1,4 +1,4 @@
-// What a line means in a figure, by weight and dash, the same in every figure: they are read in grey.
+// The meaning of lines, by weight and dash, the same in every figure: figures must be readable in grey.
 #pragma once
 
 namespace veritrack::reports::line {

@@ -18,14 +18,14 @@ class MemoryFile {
   [[nodiscard]] int descriptor() const { return file_.get(); }
   /// For a program that it is handed over to.
   [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor()); }
-  /// All that stands in it. Throws std::system_error.
+  /// Its whole contents. Throws std::system_error.
   [[nodiscard]] std::string text() const;
 
  private:
   certificates::FileDescriptor file_;
 };
 
-/// What a program said until its end.
+/// The output of a program until its end.
 struct ProgramRun {
   std::string output, errors;  ///< standard output and standard error
   int status = 0;              ///< its exit status; meaningless after a signal
@@ -36,7 +36,7 @@ struct ProgramRun {
 
 /// Runs it with these arguments and, as its standard input, `input`, without a shell. It is looked for in
 /// PATH unless there is a slash in its name, it may open the files that are handed over by their path(), and
-/// it ends with this process, however that ends. Throws std::system_error when it cannot be started.
+/// it ends with this process in every case. Throws std::system_error when it cannot be started.
 [[nodiscard]] ProgramRun run_program(const std::string& program, const std::vector<std::string>& arguments,
                                      std::string_view input,
                                      const std::vector<const MemoryFile*>& handed_over = {});

@@ -1,4 +1,4 @@
-// What reports/ draws for a kind of tracker: one record for each, made in its column.
+// The figures and maps of reports/ for a kind of tracker: one record for each, made in its column.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace veritrack::reports {
 
-/// What a map shows, around the exact start; what is not given is the kind's to choose.
+/// The contents of a map, around the exact start; the kind chooses values that are not given.
 struct MapRequest {
   std::optional<double> frequency_error;   ///< up to, rad/sample
   std::optional<double> phase_error;       ///< up to, rad
@@ -23,7 +23,7 @@ struct MapRequest {
   std::optional<double> x_range, y_range;  ///< by how much at most
   std::optional<int> cells;                ///< in each direction
   bool with_noise = false;                 ///< with the noise (and slew) of [assume]; otherwise without
-  search::Deadline deadline = {};          ///< what is not proved when it is over is open
+  search::Deadline deadline = {};          ///< cells not proved by then stay open
   bool html = false;                       ///< map.html, too
 };
 

@@ -19,8 +19,8 @@ struct FactoredCovariance {
   Scalar regression_1, regression_2;                      ///< u, signal units per (rad/sample)
   Scalar frequency_variance;                              ///< d, (rad/sample)^2
 
-  /// The factors of a 3x3 matrix, of which only the upper triangle is read. A frequency variance of exactly
-  /// zero means that the frequency is known, and P_z3 is then taken to be zero too, as it must be in a
+  /// The factors of a 3x3 matrix, whose upper triangle alone is read. A frequency variance of exactly zero
+  /// means that the frequency is known, and P_z3 is then taken to be zero too, as it must be in a
   /// semidefinite matrix.
   [[nodiscard]] static FactoredCovariance from_matrix(const Eigen::Matrix<Scalar, 3, 3>& matrix) {
     using detail::square;

@@ -1,4 +1,4 @@
-// What a register holds, and the instructions that use it: chosen when a program runs.
+// The width of a register, and the instructions that use it: chosen when a program runs.
 #pragma once
 
 namespace veritrack::trackers {

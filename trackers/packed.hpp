@@ -1,8 +1,8 @@
 // Several numbers side by side, as the scalar of a tracker: its step is then one of as many trackers.
 //
-// Every operation is that of double in each lane, rounded to nearest, so that a lane has the bits that a
-// tracker over double has, with one exception: sine and cosine. They are within one unit in the last place,
-// as docs/rounding.md asks (a test holds that against MPFR), and so are those of a C library, but the two may
+// Every operation is that of double in each lane, rounded to nearest, so a lane has the bits of a tracker
+// over double, with one exception: sine and cosine. They are within one unit in the last place, as
+// docs/rounding.md asks (a test compares them with MPFR), and so are those of a C library, but the two may
 // choose different neighbours. Compile with -ffp-contract=off, so that each set of instructions gives the
 // same bits.
 #pragma once

@@ -24,8 +24,8 @@ template <typename Scalar>
   return {sin(x), cos(x)};
 }
 
-/// x, of which real arithmetic knows that it is not negative. Says so to the scalar types of an analysis,
-/// which may not see it from the operands alone; numbers are left as they are.
+/// x, which is not negative in real arithmetic. This informs the scalar types of an analysis, which may not
+/// see it from the operands alone; numbers are left as they are.
 template <typename Scalar>
 [[nodiscard]] inline Scalar not_negative(const Scalar& x) {
   return x;

@@ -1,4 +1,4 @@
-// What the extended Kalman filters of one tone share: the model that they are designed for, and the estimate.
+// Shared by the extended Kalman filters of one tone: the model for which they are designed, and the estimate.
 //
 // State (x1, x2, x3): in-phase and quadrature part in signal units, frequency in rad/sample. With z = x1 + i
 // x2,
@@ -12,8 +12,8 @@
 
 namespace veritrack::trackers {
 
-/// What the engineer chooses: the noise that the filter reckons with, Q = diag(q1, q1, q2) and r, and the
-/// leak. It says nothing of which channels are measured.
+/// The engineer's choices: the noise that the filter assumes, Q = diag(q1, q1, q2) and r, and the leak. They
+/// do not say which channels are measured.
 template <typename Scalar>
 struct ToneModel {
   Scalar q1;       ///< process noise variance of in-phase and quadrature part, signal units squared; >= 0

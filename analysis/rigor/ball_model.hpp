@@ -10,9 +10,9 @@
 // A homogeneous polynomial p of degree m in x is bounded on the ball by Bombieri's norm, [p]^2 = sum
 // |c_alpha|^2 alpha!/m!, and [pq] <= [p][q] (B. Beauzamy, E. Bombieri, P. Enflo, H. Montgomery, 1990; by
 // Cauchy and Schwarz, p(x) being the inner product of a symmetric tensor with x^m, and symmetrisation being a
-// projection). The same holds with two vectors, a norm for each. The norm depends on |c_alpha| only: rounding
-// errors of coefficients are bounded by norms, too. Truncated products go into the error as products of
-// norms.
+// projection). The same is true with two vectors, a norm for each. The norm depends on |c_alpha| only:
+// rounding errors of coefficients are bounded by norms, too. Truncated products go into the error as products
+// of norms.
 //
 // Needs the upward rounding mode.
 #pragma once
@@ -53,7 +53,7 @@ class BallModel {
   /// The constant that this double is.
   explicit BallModel(double constant);
   explicit BallModel(int constant) : BallModel(static_cast<double>(constant)) {}
-  /// A function of which only the range is known; nothing is known of it unless the range is finite.
+  /// A function known only by its range; nothing is known about it unless the range is finite.
   explicit BallModel(const Interval& range);
 
   /// The component number `index` of x, of v, and s and z.

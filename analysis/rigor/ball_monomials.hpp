@@ -29,7 +29,7 @@ class BallMonomials {
   struct Product {
     std::uint16_t a, b, c;
   };
-  /// The products of two classes, of which the product is kept.
+  /// The products of two classes whose product is kept.
   struct ClassProduct {
     std::uint16_t a, b;  ///< numbers of classes
     std::uint16_t c;     ///< class of the product
@@ -68,7 +68,7 @@ class BallMonomials {
   [[nodiscard]] const std::vector<std::uint8_t>& groups() const { return groups_; }
   /// Whether every class has one term, of weight 1: models of s and z alone.
   [[nodiscard]] bool is_plane() const { return balls_ == 0 && disturbances_ == 0; }
-  /// Of the pairs of classes whose product is kept, those with this class first, in the order of the second.
+  /// The pairs of classes with this class first whose product is kept, in the order of the second.
   [[nodiscard]] std::span<const ClassProduct> pairs_of(std::size_t a) const {
     return {pairs_.data() + first_pair_[a], first_pair_[a + 1] - first_pair_[a]};
   }

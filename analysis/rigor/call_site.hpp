@@ -21,7 +21,7 @@ namespace veritrack::rigor::detail {
 #define VERITRACK_DECLARED_CALL_SITE , const std::source_location& call_site
 /// Hands the call on to a predicate that answers for this one.
 #define VERITRACK_SAME_CALL_SITE , call_site
-/// What a predicate begins with.
+/// The beginning of every predicate.
 #define VERITRACK_MUTANT_RETURNS(value)                   \
   if (::veritrack::rigor::detail::is_mutant(call_site)) { \
     return value;                                         \

@@ -6,13 +6,12 @@
 
 namespace veritrack::rigor {
 
-/// Of up to so many rows there is no allocation.
+/// Matrices of at most this many rows need no allocation.
 inline constexpr int kMostSmallRows = 20;
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostSmallRows, kMostSmallRows>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostSmallRows, 1>;
 
-/// Of a symmetric matrix, of which the lower triangle is read. NaN, or anything, where an entry is not
-/// finite.
+/// Of a symmetric matrix, whose lower triangle is read. The result is arbitrary where an entry is not finite.
 [[nodiscard]] double largest_eigenvalue(const Eigen::Ref<const Eigen::MatrixXd>& symmetric);
 [[nodiscard]] double least_eigenvalue(const Eigen::Ref<const Eigen::MatrixXd>& symmetric);
 /// The largest |eigenvalue|.

@@ -33,7 +33,7 @@ class Dual;
 
 namespace detail {
 
-// What the chain rules below need from a plain double; Interval and Dual have their own overloads.
+// Functions of a plain double that the chain rules below need; Interval and Dual have their own overloads.
 inline double square(double x) {
   return x * x;
 }

@@ -1,4 +1,4 @@
-// What Eigen requires of a type that is stored in matrices.
+// Eigen's requirements on a type stored in matrices.
 #pragma once
 
 #include <Eigen/Core>

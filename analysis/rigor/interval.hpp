@@ -60,7 +60,7 @@ class Interval {
     return Interval(is_set ? packed::pack(lower, upper) : packed::nothing());
   }
   [[nodiscard]] static Interval empty() noexcept { return {}; }
-  /// (-inf, +inf): a real number of which nothing else is known.
+  /// (-inf, +inf): an arbitrary real number.
   [[nodiscard]] static Interval entire() noexcept {
     return from_bounds(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
   }

@@ -1,6 +1,6 @@
 // Several intervals side by side: the scalar of a computation over as many boxes at once.
 //
-// Lane by lane each operation gives the bounds that Interval gives, to the bit (a test holds that), so that
+// Lane by lane each operation gives the bounds that Interval gives, to the bit (a test checks this), so that
 // results depend neither on the number of lanes nor on the set of instructions. [a, b] is kept as -a and b,
 // as in packed_bounds.hpp, each in a register of its own. In place of a truth value a predicate gives a mask:
 // a lane is set only where it is certain. Needs the upward mode, as Interval does.
@@ -228,8 +228,8 @@ class IntervalLanes {
     }
   };
 
-  /// The product where an operand is empty, or unbounded: there zero times infinity, which is NaN, stands for
-  /// zero times large numbers, which are zero.
+  /// The product where an operand is empty, or unbounded: there zero times infinity, which is NaN, represents
+  /// zero times large numbers, which is zero.
   [[gnu::noinline, gnu::cold]] static IntervalLanes product_with_infinities(const IntervalLanes& x,
                                                                             const IntervalLanes& y,
                                                                             const Products& all) {

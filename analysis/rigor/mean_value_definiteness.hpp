@@ -97,10 +97,10 @@ template <std::size_t Size, std::size_t N>
   return true;
 }
 
-/// True when settled(sum, ways) is, for what it says of all corners at once; else calls
-/// visit(matrix, determinant) with enclosures C A C' at each corner of a cell and of det C^2, until it
-/// returns false; false when it does, or without a C. Every A in the cell is a convex combination of matrices
-/// out of these enclosures.
+/// True when settled(sum, ways) is, which decides all corners at once; otherwise calls visit(matrix,
+/// determinant) with enclosures C A C' at each corner of a cell and of det C^2, until it returns false; false
+/// when it does, or without a C. Every A in the cell is a convex combination of matrices out of these
+/// enclosures.
 template <std::size_t Size, int N, typename Settled, typename Visit>
 [[nodiscard]] bool visit_corners(const LowerTriangle<Size>& middle,
                                  const LowerTriangle<Size, Dual<Interval, N>>& over,

@@ -2,7 +2,7 @@
 //
 // [a, b] is the pair (-a, b). Both are rounded upward, so that one addition is the sum of two intervals, and
 // one of the two passes of a product serves both bounds (B. Lambov, Interval Arithmetic Using SSE-2, 2008).
-// Of a set that is not empty neither number is NaN or -infinity; of the empty set both are NaN.
+// For a nonempty set neither number is NaN or -infinity; for the empty set both are NaN.
 //
 // Every operation takes its operands and gives its result through `opaque` (rounding.hpp).
 #pragma once
@@ -57,8 +57,8 @@ inline bool any_unordered(__m128d x, __m128d y) noexcept {
   return _mm_movemask_pd(_mm_cmpunord_pd(x, y)) != 0;
 }
 
-/// The product of operands that are empty, or unbounded: there zero times infinity, which is NaN, stands for
-/// zero times large numbers, which are zero.
+/// The product of operands that are empty, or unbounded: there zero times infinity, which is NaN, represents
+/// zero times large numbers, which is zero.
 [[gnu::noinline, gnu::cold]] inline __m128d product_with_infinities(__m128d x, __m128d y) {
   if (any_unordered(x, y)) {
     return nothing();
@@ -75,8 +75,8 @@ inline bool any_unordered(__m128d x, __m128d y) noexcept {
 inline __m128d product(__m128d x, __m128d y) {
   rigor::detail::debug_require_upward();
   const detail::Candidates all = detail::candidates(detail::opaque(x), detail::opaque(y));
-  // A maximum with NaN is its second operand. So a NaN among the other two loses nothing; it stands for zero,
-  // and of four products that are not all NaN one is then at least zero.
+  // A maximum with NaN is its second operand. So a NaN among the other two loses nothing: it represents zero,
+  // and among four products that are not all NaN one is then at least zero.
   if (detail::any_unordered(all.ad_bd, all.ac_bc)) [[unlikely]] {
     return detail::product_with_infinities(x, y);
   }

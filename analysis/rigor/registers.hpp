@@ -11,7 +11,8 @@
 
 namespace veritrack::rigor {
 
-// All is inlined, always: a function out of line could serve units for other sets of instructions, too.
+// Everything is always inlined: an out-of-line function could also serve units for other sets of
+// instructions.
 #define VERITRACK_INLINED [[nodiscard, gnu::always_inline]] static inline  // NOLINT: an attribute
 
 template <int Lanes>

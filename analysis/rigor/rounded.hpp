@@ -1,9 +1,9 @@
-// Rounded: what IEEE 754 double precision makes of a computation, by running error analysis.
+// Rounded: the effect of IEEE 754 double precision on a computation, by running error analysis.
 //
-// A Rounded stands for a quantity of which two values are meant: the exact one, which real arithmetic gives,
-// and the computed one, which a program gives that does the same operations in double precision. It holds an
-// enclosure of the exact value and a bound on |computed - exact|. Run on it, a template over its scalar says
-// how far the program that it is for double can be from real arithmetic, over all inputs in a box.
+// A Rounded represents two values of a quantity: the exact one, of real arithmetic, and the computed one, of
+// a program that does the same operations in double precision. It holds an enclosure of the exact value and a
+// bound on |computed - exact|. Run on it, a template over its scalar bounds how far the same template over
+// double can be from real arithmetic, for all inputs in a box.
 //
 // The promise is about programs in which
 //   - every + - * / is rounded to nearest, in binary64, in the order
@@ -38,11 +38,11 @@ class Rounded {
   static constexpr double kSmallestUnit = 0x1p-60;
   static constexpr double kLargestUnit = 0x1p60;
 
-  /// Of which nothing is known.
+  /// A value about which nothing is known.
   Rounded() : Rounded(Interval(), kInfinity) {}
-  /// A literal of the program, or an input of which it holds this very number.
+  /// A literal of the program, or an input that is exactly this number.
   explicit Rounded(double value) : Rounded(Interval(value), 0.0) {}
-  /// Any double in the interval: what the program reads is the exact value.
+  /// Any double in the interval: the program reads the exact value.
   explicit Rounded(const Interval& exact) : Rounded(exact, 0.0) {}
   Rounded(const Interval& exact, double error) : exact_(exact), error_(checked(exact, error)) {}
 

@@ -68,7 +68,7 @@ inline Rounded& operator-=(Rounded& a, const Rounded& b) {
   return detail::rounded_once(exact, mul_up(magnitude(exact), growth.upper()), 2.0);
 }
 
-/// Of phases nothing is said.
+/// It gives no bound for phases.
 [[nodiscard]] inline Rounded atan2(const Rounded& /*y*/, const Rounded& /*x*/) {
   return {};
 }

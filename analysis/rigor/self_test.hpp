@@ -14,7 +14,7 @@ class ArithmeticError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the self-test found: a line for each check that failed.
+/// The result of the self-test: a line for each failed check.
 struct SelfTestReport {
   std::vector<std::string> failures;
   [[nodiscard]] bool passed() const { return failures.empty(); }

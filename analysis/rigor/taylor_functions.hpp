@@ -15,7 +15,7 @@ namespace veritrack::rigor {
 namespace detail {
 
 /// f(x) = sum_{k < m} f^(k)(c)/k! (x - c)^k + f^(m)(t)/m! (x - c)^m, t between c and x, where m is Degree + 1
-/// or, if that is less, the highest order of which there are coefficients.
+/// or, if that is less, the highest order with coefficients.
 template <int Variables, int Degree>
 [[nodiscard]] TaylorModel<Variables, Degree> followed_by(TaylorCoefficients (*coefficients)(const Interval&),
                                                          const TaylorModel<Variables, Degree>& x) {

@@ -2,9 +2,10 @@
 // plain floating point is sound in them.
 //
 // Lane by lane the operations are those of TaylorModel in the same order, so that a lane has the same
-// coefficients and the same remainder, to the bit (a test holds that). What is left out are sums and products
-// with coefficients that are zero in all lanes. For units that are compiled for one set of instructions, as
-// interval_lanes.hpp, and with the lanes last among the parameters, by which such units are told apart.
+// coefficients and the same remainder, to the bit (a test checks this). Only sums and products with
+// coefficients that are zero in all lanes are omitted. For units that are compiled for one set of
+// instructions, as interval_lanes.hpp, and with the lanes last among the parameters, by which such units are
+// told apart.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@ class TaylorLanes {
   TaylorLanes() noexcept : TaylorLanes(R::all(0.0), nan()) {}
   /// The constant that this double is.
   explicit TaylorLanes(double constant) noexcept : TaylorLanes(R::all(constant), R::all(0.0)) {}
-  /// A function of which only the range is known; nothing is known of it where the range is not finite.
+  /// A function known only by its range; nothing is known about it where the range is not finite.
   explicit TaylorLanes(const Set& constant)
       : TaylorLanes(R::select(is_finite(constant), midpoint(constant), R::all(0.0)),
                     R::select(is_finite(constant), radius_around(constant), nan())) {}

@@ -43,7 +43,7 @@ class TaylorModel {
     coefficients_[0] = constant;
   }
   explicit TaylorModel(int constant) noexcept : TaylorModel(static_cast<double>(constant)) {}
-  /// A function of which only the range is known; nothing is known of it unless the range is finite.
+  /// A function known only by its range; nothing is known about it unless the range is finite.
   explicit TaylorModel(const Interval& constant)
       : TaylorModel(is_finite(constant) ? midpoint(constant) : 0.0) {
     remainder_ = is_finite(constant) ? radius_around(constant, coefficients_[0])
@@ -179,7 +179,7 @@ class TaylorModel {
     return x.composed(slopes, rest.upper());
   }
 
-  // What Dual requires of its scalar.
+  // Dual's requirements on its scalar.
   [[nodiscard]] friend bool is_known(const TaylorModel& x) noexcept { return !std::isnan(x.remainder_); }
   friend void make_unknown(TaylorModel& x) noexcept { x = TaylorModel(); }
 

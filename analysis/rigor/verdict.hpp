@@ -1,4 +1,4 @@
-// Verdict: what a finite computation with outward-rounded arithmetic shows about a statement.
+// Verdict: the result of a finite computation with outward-rounded arithmetic about a statement.
 #pragma once
 
 #include <initializer_list>

@@ -1,4 +1,4 @@
-// Branch and bound: encloses the minimum of a function over a box, and so proves what a search proposes.
+// Branch and bound: encloses the minimum of a function over a box, and so proves the proposals of a search.
 //
 // The function is a template over its scalar, called with vectors of Interval and of Dual<Interval, N>; where
 // its result is finite it must be defined and (for duals) differentiable, which is the promise of

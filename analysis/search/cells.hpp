@@ -1,4 +1,4 @@
-// The cells of a branch and bound: parts of a box with what is known of a function there, the best first.
+// The cells of a branch and bound: parts of a box with bounds on a function there, the best first.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace veritrack::search::detail {
 
-/// A part of the box with what is known of the function on it.
+/// A part of the box with bounds on the function there.
 template <int N>
 struct Cell {
   rigor::IntervalVector<N> box;

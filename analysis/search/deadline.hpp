@@ -13,7 +13,7 @@ class Deadline {
  public:
   /// Never over.
   Deadline() = default;
-  /// Over after so many seconds from now.
+  /// Over after this many seconds from now.
   explicit Deadline(double seconds)
       : struck_(std::make_shared<std::atomic<bool>>(false)),
         end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(

@@ -1,4 +1,4 @@
-// What is asked of the contraction certificate.
+// The question to the contraction certificate.
 #pragma once
 
 #include <optional>
@@ -13,18 +13,18 @@ namespace veritrack::sets {
 /// How far a search goes.
 enum class SearchEffort {
   everything,  ///< for the best value of every quantity
-  sufficient,  ///< until what is required is proved, and for everything where one set does not prove it
-  quick        ///< only for one set that proves what is required
+  sufficient,  ///< until the requirements are proved; for everything where one set does not prove them
+  quick        ///< only for one set that proves the requirements
 };
 
-/// What [require] asks of the assumed starts.
+/// The requirements of [require] on the assumed starts.
 struct RequiredBounds {
   std::optional<double> frequency_error;  ///< rad/sample: never reached
   std::optional<double> samples;          ///< after which the error is at most `settled_frequency_error`
   [[nodiscard]] bool any() const { return frequency_error || samples; }
 };
 
-/// What is asked, for a signal of amplitude 1: design, noise and amplitudes relative to the true one
+/// The question, for a signal of amplitude 1: design, noise and amplitudes relative to the true one
 /// (trackers::at_unit_amplitude).
 struct ContractionQuestion {
   trackers::ToneModel<rigor::Interval> design;
@@ -35,7 +35,7 @@ struct ContractionQuestion {
   rigor::Interval initial_frequency_error = rigor::Interval(0.0);  ///< rad/sample
   /// P(0|0) in the frame of the estimated phase; none: the filter's steady state.
   std::optional<StartCovariance> start_covariance;
-  /// The frequency error that is to count as settled, rad/sample; none: twice the bound of the long run.
+  /// The frequency error that counts as settled, rad/sample; none: twice the bound of the long run.
   std::optional<double> settled_frequency_error;
   /// Of the signal, for what the rounding of the program depends on: its amplitude in signal units, and
   /// |omega(k)| <= largest_frequency, rad/sample; by default pi, from above.
@@ -45,7 +45,7 @@ struct ContractionQuestion {
   /// Other than `everything` only where `required` is all that a verdict needs.
   SearchEffort effort = SearchEffort::everything;
   int search_evaluations = 40;  ///< per set
-  bool with_samples = true;     ///< also what a search finds, which proves nothing
+  bool with_samples = true;     ///< also sampled results of a search, which prove nothing
   /// Also as much noise, and as much slew, as sets of their own tolerate. Without, they are looked for only
   /// where nothing is certified under the assumed ones, for a filter without a leak.
   bool with_limits = true;

@@ -1,4 +1,4 @@
-// What a contraction certificate says, whichever tracker it is of.
+// The result of a contraction certificate, for every kind of tracker.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace veritrack::sets {
 
 /// The quantities that contraction certificates have in common, without their values: name, symbol, words and
-/// sense. What is not set is not applicable.
+/// sense. Quantities that are not set are not applicable.
 namespace quantities {
 [[nodiscard]] theorems::Quantity contraction_rate();
 [[nodiscard]] theorems::Quantity radius();
@@ -28,7 +28,7 @@ namespace quantities {
 [[nodiscard]] theorems::Quantity bias_frequency();
 }  // namespace quantities
 
-/// What is proved of the assumed starts, under the assumed noise and slew.
+/// The proved claims about the assumed starts, under the assumed noise and slew.
 struct StartResult {
   /// Whether every assumed start is covered: all conditions together.
   rigor::Verdict verdict = rigor::Verdict::undecided;
@@ -44,7 +44,7 @@ struct StartResult {
   std::optional<theorems::Quantity> wrong_lock_frequency_error;  ///< of a start that is certainly lost
   /// Some assumed start certainly locks elsewhere, with noise and slew that are allowed.
   bool loses_lock = false;
-  /// A sentence: what is PROVED under less noise and slew, where the assumed ones are too much.
+  /// A sentence: the claim that is PROVED under less noise and slew, where the assumed ones are too large.
   std::string proved_instead;
 
   /// On |frequency error| at every sample, rad/sample; nothing unless every assumed start is covered.
@@ -55,7 +55,7 @@ struct StartResult {
   [[nodiscard]] const theorems::Condition* first_condition(rigor::Verdict wanted) const;
 };
 
-/// What is certified of a design: quantities with words, symbol, formula, source, sense and value.
+/// The certified results for a design: quantities with words, symbol, formula, source, sense and value.
 struct ContractionResult {
   // Of the largest certified set under the assumed noise and slew.
   theorems::Quantity contraction_rate = quantities::contraction_rate();

@@ -20,8 +20,8 @@ namespace veritrack::sets {
 /// An uncontrollable mode of (F, Q) on the unit circle, with its witness.
 struct UncontrollableMode {
   /// PROVED: for every design of the question the witness below is an uncontrollable mode with |lambda| = 1,
-  /// and therefore the tracker has no unbiased steady state from which small errors decay
-  /// exponentially. UNDECIDED: nothing is said; in particular not that there is one.
+  /// and therefore the tracker has no unbiased steady state from which small errors decay exponentially.
+  /// UNDECIDED: no conclusion; in particular not that such a steady state exists.
   rigor::Verdict verdict = rigor::Verdict::undecided;
   std::string reason;                      ///< one sentence for the certificate
   rigor::IntervalMatrix<3> transition;     ///< F, in the frame that turns with the true phase

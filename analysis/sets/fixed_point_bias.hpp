@@ -3,8 +3,8 @@
 //
 // Without a leak (epsilon = 0) it settles without bias at every frequency. With a leak the prediction pulls
 // the frequency towards zero, and the steady state is a fixed point X*(omega) of the polar-frame map away
-// from the truth. That map has several fixed points; the one meant is on the lock branch, which starts at
-// omega = 0 from the exact estimate.
+// from the truth. That map has several fixed points; this one is on the lock branch, which starts at omega =
+// 0 from the exact estimate.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Questions for more than is asked: what is proved for one of them is proved for the question.
+// Harder questions: a proof for one of them is a proof for the question.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What tells the lock of a set from every other one that the formulas know.
+// The bound that distinguishes the lock of a set from every other one that the formulas imply.
 #pragma once
 
 #include "analysis/rigor/elementary.hpp"

@@ -15,7 +15,7 @@ namespace veritrack::sets {
   return rigor::is_finite(x) ? x.upper() : std::numeric_limits<double>::infinity();
 }
 
-/// What the program runs on, besides its state. Lengths are relative to the true amplitude.
+/// The inputs of the program, besides its state. Lengths are relative to the true amplitude.
 struct Program {
   trackers::ToneModel<rigor::Interval> design;
   rigor::Interval amplitude = rigor::Interval(1.0);  ///< the true one, signal units
@@ -38,8 +38,8 @@ struct StateDifference {
 /// True only when all five are finite.
 [[nodiscard]] bool is_finite(const StateDifference& difference);
 
-/// Between the state that the program holds and the exact one, of which the covariances are kept in factors:
-/// P_zz = M + d u u', P_z3 = d u, P_33 = d. Needs the upward mode.
+/// The difference of the program's state from the exact one; both covariances are given by factors: P_zz = M
+/// + d u u', P_z3 = d u, P_33 = d. Needs the upward mode.
 [[nodiscard]] StateDifference difference_of(const trackers::ToneEstimate<rigor::Rounded>& after);
 
 }  // namespace veritrack::sets

@@ -78,7 +78,7 @@ template <typename Scalar>
           p.p22 - b2 * c2, p.p23 - b3 * c2, p.p33 - square(b3) * reciprocal};
 }
 
-/// What is supposed of the estimates, at every sample: e' P^-1 e <= radius^2 for the error e = (delta, nu) in
+/// The assumption on the estimates, at every sample: e' P^-1 e <= radius^2 for the error e = (delta, nu) in
 /// the frame of the true phase, P33 <= frequency_variance, and P <= signal_variance on the first two
 /// components. All are exact doubles, positive and finite.
 struct WindowAssumption {
@@ -86,7 +86,7 @@ struct WindowAssumption {
   double frequency_variance = 0.0;  ///< (rad/sample)^2
   double signal_variance = 0.0;     ///< relative to the amplitude, squared
   double loosening = 0.0;  ///< eta in (0, 1): (F + E) P (F + E)' <= (1 + eta) F P F' + (1 + 1/eta) E P E'
-  /// What the program's step adds to the exact one; zero for a tracker in real arithmetic.
+  /// Rounding of the program's step; zero for a tracker in real arithmetic.
   StepRounding rounding = {};
 };
 
@@ -120,7 +120,7 @@ template <typename Model>
           cleared(p.p22, p.p12, p.p22, p.p23), p.p23.polynomial(), cleared(p.p33, p.p13, p.p23, p.p33)};
 }
 
-/// About the share of the variances that the verification will need, of which the phase is off by `drift`.
+/// About the share of the variances that the verification will need when the phase is off by `drift`.
 [[nodiscard]] inline double proposed_remainder(double drift) {
   constexpr double kTruncation = 4e-4;
   constexpr double kPerRadian = 4.0;
@@ -138,9 +138,10 @@ template <typename Number>
           p.p22 + share * (p.p22 + a12 + a23), p.p23, p.p33 + share * (p.p33 + a13 + a23)};
 }
 
-/// What follow_window needs of its scalar beyond + - * /: a range, of which `kept_within` is the part in [0,
-/// limit], or the limit where nothing is known; a scalar from the upper end of a range; and of Taylor models
-/// the remainder, as a range. Those of several lanes are in window_cell_lanes.hpp and window_grid_lanes.hpp.
+/// Functions that follow_window needs of its scalar beyond + - * /: a range, of which `kept_within` is the
+/// part in [0, limit], or the limit where nothing is known; a scalar from the upper end of a range; and of
+/// Taylor models the remainder, as a range. Those of several lanes are in window_cell_lanes.hpp and
+/// window_grid_lanes.hpp.
 template <typename Scalar>
 struct WindowScalar {};
 
@@ -173,11 +174,11 @@ struct WindowScalar<OverPhaseAndFrequency> {
   }
 };
 
-/// How far the phase may be off so many samples after (before, when negative) one where it and the frequency
-/// are known, when the frequency changes by at most `slew` a sample. Needs the upward mode.
+/// How far the phase may be off this many samples after (before, when negative) one where it and the
+/// frequency are known, when the frequency changes by at most `slew` a sample. Needs the upward mode.
 [[nodiscard]] double phase_drift(int samples, double slew);
 
-/// The phase so many samples after `phase` (before it, when negative), when the frequency is `frequency`
+/// The phase this many samples after `phase` (before it, when negative), when the frequency is `frequency`
 /// there, up to the drift.
 template <typename Model>
 [[nodiscard]] Model advanced(const Model& phase, const Model& frequency, int samples, double drift) {
@@ -198,7 +199,7 @@ template <typename Scalar, typename Range = typename detail::WindowScalar<Scalar
   using Of = detail::WindowScalar<Scalar>;
   using std::sqrt;
   using trackers::detail::square;
-  // What is assumed of every covariance holds too, and where the bound is not finite it is all there is.
+  // The assumption on every covariance is also a bound, and the only one where the other is not finite.
   const Range signal_limit(assumption.signal_variance);
   const Range frequency_limit(assumption.frequency_variance);
   const Range half(0.5);
@@ -212,10 +213,10 @@ template <typename Scalar, typename Range = typename detail::WindowScalar<Scalar
 }
 
 /// Calls visit(m, upper, lower, predicted_lower) for m = 1, ..., window: bounds lower <= P <= upper on every
-/// covariance m samples after one of a phase and a frequency; `lower` bounds what these m samples make of any
-/// covariance, from zero on; predicted_lower bounds the prediction from `lower` on. `direction(samples,
-/// drift)` is (sine, cosine) of the phase so many samples after that, to within the drift. Stops when visit
-/// returns false. Needs the upward mode.
+/// covariance m samples after one of a phase and a frequency; `lower` bounds the covariance that these m
+/// samples make of any covariance, from zero on; predicted_lower bounds the prediction from `lower` on.
+/// `direction(samples, drift)` is (sine, cosine) of the phase this many samples after that, to within the
+/// drift. Stops when visit returns false. Needs the upward mode.
 template <typename Scalar, typename Direction, typename Visit>
 void follow_window(const trackers::ToneModel<Scalar>& design, const WindowAssumption& assumption,
                    const WindowLength& length, const Direction& direction, const Visit& visit) {

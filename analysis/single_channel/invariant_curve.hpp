@@ -2,9 +2,9 @@
 // the bias that it holds.
 //
 // With a tone of constant frequency omega the closed loop is a skew product, (phi, X) -> (phi + omega,
-// G_phi(X)), pi-periodic in phi (single_channel_rotating_frame.hpp). Its steady state is no fixed point but a
-// curve X*(phi) with G_phi(X*(phi)) = X*(phi + omega). Its frequency component nu* is the error that is left
-// when all transients are gone: it ripples with the phase, and its mean is the bias.
+// G_phi(X)), pi-periodic in phi (single_channel_rotating_frame.hpp). Its steady state is not a fixed point
+// but a curve X*(phi) with G_phi(X*(phi)) = X*(phi + omega). Its frequency component nu* is the error after
+// all transients: it ripples with the phase, and its mean is the bias.
 //
 // What is verified. Given a trigonometric polynomial C(phi), cells I_i that cover a period, an invertible
 // matrix V_i for each, and a radius R, let the tube be {(phi, C(phi) + V_i u) : phi in I_i, |u| <= R}.
@@ -12,9 +12,9 @@
 //   (a)  |V_j^-1 (G_phi(C(phi)) - C(phi + omega))| <= rho,
 //   (b)  |V_j^-1 DG_phi(X) V_i|_2 <= kappa < 1,
 //   (c)  kappa R + rho <= R.
-// Then the tube is mapped into itself, there is exactly one invariant curve in it, it is continuous, it
-// stays within rho / (1 - kappa) of C (in the same coordinates), and every start in the tube converges to it
-// by the factor kappa a sample.
+// Then the tube is mapped into itself and contains exactly one invariant curve, which is continuous and stays
+// within rho / (1 - kappa) of C (in the same coordinates), and every start in the tube converges to it by the
+// factor kappa a sample.
 // Proof. For fixed phi the fibre {|u| <= R} is convex, so (b) bounds the distance of images by kappa times
 // the distance, and with (a) and (c) the fibre over phi goes into that over phi + omega. Hence the graph
 // transform, which maps a function phi -> X(phi) with values in the tube to phi + omega -> G_phi(X(phi)), is
@@ -23,8 +23,8 @@
 // rho. QED
 // For an interval of frequencies C depends on omega too, and (a) to (c) are verified for all of them at once.
 //
-// Without a leak {delta = nu = 0} is mapped into itself (a test holds that), so that with a C of which these
-// components are zero the graph transform keeps them zero: the error part of X* is exactly zero.
+// Without a leak {delta = nu = 0} is mapped into itself (a test checks this), so with a C whose components
+// there are zero the graph transform keeps them zero: the error part of X* is exactly zero.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// A tube about a curve over the phase, for each frequency of an interval: where the single-channel tracker's
-// steady state is looked for. What makes it a proof is in tube_verification.hpp.
+// A tube about a curve over the phase, for each frequency of an interval: in which the single-channel
+// tracker's steady state is sought. The proof is in tube_verification.hpp.
 #pragma once
 
 #include <tbb/blocked_range.h>

@@ -21,8 +21,8 @@ struct PhaseCertificate {
   std::optional<PhaseSet> slew_set;   ///< the largest slew, without noise
 };
 
-/// Proposes, verifies and reports. Never throws for odd numbers: what is not finite proves nothing. Opens its
-/// own UpwardRounding scope.
+/// Proposes, verifies and reports. Never throws for invalid numbers: a number that is not finite proves
+/// nothing. Opens its own UpwardRounding scope.
 [[nodiscard]] PhaseCertificate certify_over_phases(const PhaseQuestion& question);
 
 }  // namespace veritrack::single_channel

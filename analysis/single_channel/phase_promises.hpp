@@ -1,4 +1,4 @@
-// What a verified set of the single-channel tracker promises of the assumed starts.
+// The claims of a verified set of the single-channel tracker about the assumed starts.
 #pragma once
 
 #include "analysis/rigor/call_site.hpp"

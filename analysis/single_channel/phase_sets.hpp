@@ -12,7 +12,7 @@
 
 namespace veritrack::single_channel {
 
-/// What is asked, at amplitude 1.
+/// The question, at amplitude 1.
 struct PhaseQuestion {
   sets::ContractionQuestion tracker;  ///< design, noise, slew and start
   rigor::Interval band;               ///< true frequencies, rad/sample
@@ -57,7 +57,7 @@ class PhaseSearch {
   [[nodiscard]] std::optional<PhaseSet> largest_noise() const;
   /// The largest slew, without noise.
   [[nodiscard]] std::optional<PhaseSet> largest_slew() const;
-  /// A level that holds the assumed starts in this set, seen on a grid: no proof.
+  /// A level of this set that contains the assumed starts, computed on a grid: no proof.
   [[nodiscard]] double start_level_seen(const PhaseSet& set) const;
 
  private:

@@ -15,9 +15,9 @@ namespace veritrack::single_channel {
 /// corrected ones. They hold or fail for all gains and frequencies: no design enters. Needs the upward mode.
 [[nodiscard]] std::vector<theorems::Statement> proposition_1_formulas();
 
-/// What Proposition 1 concludes, "unbiased if and only if epsilon omega = 0", in both directions, at one
+/// The conclusion of Proposition 1, "unbiased if and only if epsilon omega = 0", in both directions, at one
 /// frequency (its decimal, rad/sample): `with_leak` and `without_leak` are the steady states of the design
-/// and of the design with epsilon = 0. The second direction is left out for a design with epsilon = 0. Needs
+/// and of the design with epsilon = 0. The second direction is omitted for a design with epsilon = 0. Needs
 /// the upward mode.
 [[nodiscard]] std::vector<theorems::Statement> proposition_1_conclusion(const SteadyStateBias& with_leak,
                                                                         const SteadyStateBias& without_leak,

@@ -1,5 +1,5 @@
-// What is allowed for rounding in the sets of the single-channel tracker (docs/rounding.md, "The
-// single-channel tracker").
+// The allowance for rounding in the sets of the single-channel tracker (docs/rounding.md, "The single-channel
+// tracker").
 #pragma once
 
 #include "analysis/single_channel/phase_sets.hpp"
@@ -11,7 +11,7 @@ namespace veritrack::single_channel {
 [[nodiscard]] StepRounding allowed_rounding(const PhaseQuestion& question, const WindowClaim& claim,
                                             const rigor::Interval& noise);
 
-/// Whether sixteen times the bound of the first step, from the range of starts of the set, is no more than
+/// Whether sixteen times the bound of the first step, from the range of starts of the set, is at most what
 /// the set's claim allows. The set must have a start. Needs the upward mode.
 [[nodiscard]] bool covers_start(const PhaseQuestion& question, const PhaseSet& set);
 

@@ -1,8 +1,8 @@
 // How far one step of the single-channel tracker in double precision can be from the same step in real
 // arithmetic (docs/rounding.md, "The single-channel tracker").
 //
-// Both start from what the program holds: an estimate whose covariance is the matrix that its factors stand
-// for, and a measurement. The bounds are for every orientation of the plane.
+// Both start from the program's numbers: an estimate, the matrix represented by its covariance factors, and a
+// measurement. The bounds are for every orientation of the plane.
 #pragma once
 
 #include <limits>
@@ -34,7 +34,7 @@ struct StepRounding {
 
   /// The largest share of P for which anything is said.
   static constexpr double kMostCovariance = 0x1p-8;
-  /// True only when both are numbers, not negative, and the share of P is at most that.
+  /// True only when both are nonnegative numbers, and the share of P is at most this.
   [[nodiscard]] bool is_bounded() const {
     return error >= 0.0 && error <= 1.0 && covariance >= 0.0 && covariance <= kMostCovariance;
   }
@@ -43,12 +43,12 @@ struct StepRounding {
 inline constexpr StepRounding kUnboundedRounding{std::numeric_limits<double>::infinity(),
                                                  std::numeric_limits<double>::infinity()};
 
-/// diag(floor, floor, q2) is below every covariance after an exact step, from whatever covariance: what a
-/// measurement leaves of Q. `floor` is q1 r / (q1 + r).
+/// diag(floor, floor, q2) is below the covariance after an exact step from any covariance: a measurement
+/// leaves at least this of Q. `floor` is q1 r / (q1 + r).
 [[nodiscard]] rigor::Interval filtered_floor(const trackers::ToneModel<rigor::Interval>& design);
 
-/// What the difference is in terms of the covariances, all of which are above diag(floor, floor, q2). Needs
-/// the upward mode.
+/// The difference in terms of the covariances, which are all above diag(floor, floor, q2). Needs the upward
+/// mode.
 [[nodiscard]] StepRounding in_metric(const trackers::ToneModel<rigor::Interval>& design,
                                      const sets::StateDifference& difference);
 

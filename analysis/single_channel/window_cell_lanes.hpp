@@ -1,8 +1,8 @@
-// What has to hold in a cell of phase and frequency, for one cell or for several in the lanes of registers:
+// The conditions in a cell of phase and frequency, for one cell or for several in the lanes of registers:
 // part of window_cells.hpp. Each unit that includes this one for more lanes than two is compiled for one set
-// of instructions; all types that depend on the set bear the number of lanes, so that no function of such a
-// unit stands in for one of another. One cell and several do the same operations, so that they give the same
-// bits.
+// of instructions; all types that depend on the set have the number of lanes as a parameter, so that the
+// linker cannot replace a function of one unit by that of another. One cell and several do the same
+// operations, so they give the same bits.
 #pragma once
 
 #include <cmath>

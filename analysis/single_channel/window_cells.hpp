@@ -14,7 +14,7 @@ struct WindowCells {
   double frequency[2][kMost];  ///< rad/sample NOLINT
 };
 
-/// What is to be shown in each of them: a WindowClaim, and of diagonal matrices whether they are below every
+/// The claims to be shown in each of them: a WindowClaim, and whether diagonal matrices are below every
 /// covariance.
 struct WindowTask {
   static constexpr int kMostStarts = 3;
@@ -30,7 +30,7 @@ struct WindowTask {
   rigor::Interval start_frequency[kMostStarts];  // NOLINT
 };
 
-/// What the look at them found.
+/// The result of examining them.
 struct WindowAnswers {
   bool holds[WindowCells::kMost];                              ///< the claim, certainly NOLINT
   bool is_below[WindowTask::kMostStarts][WindowCells::kMost];  ///< the start, certainly NOLINT

@@ -1,5 +1,5 @@
-// What is claimed of the covariance and of the steps of the single-channel tracker in a window of samples, at
-// every phase and every frequency of a band; and its verification.
+// Claims about the covariance and the steps of the single-channel tracker in a window of samples, at every
+// phase and every frequency of a band; and its verification.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct WindowClaim {
   double signal_uncertainty = 0.0;
 };
 
-/// What holds besides when a claim is verified: lower bounds on P11, P22 and P33 over phases and band.
+/// Further results of a verified claim: lower bounds on P11, P22 and P33 over phases and band.
 struct WindowFloor {
   double p11 = 0.0;
   double p22 = 0.0;
@@ -44,7 +44,7 @@ struct StartVariances {
   rigor::Interval frequency;  ///< (rad/sample)^2
 };
 
-/// The floor when the claim holds for every design in `design` (amplitude 1, epsilon = 0), every phase and
+/// The floor when the claim is true for every design in `design` (amplitude 1, epsilon = 0), every phase and
 /// every frequency of `band` (rad/sample), nothing otherwise:
 ///   (a) every covariance that satisfies the assumption for a window stays below its two variances
 ///   afterwards; (b) shares, curvature and signal_uncertainty are as they say.
@@ -53,7 +53,7 @@ struct StartVariances {
 [[nodiscard]] std::optional<WindowFloor> verify_window(const trackers::ToneModel<rigor::Interval>& design,
                                                        const rigor::Interval& band, const WindowClaim& claim);
 
-/// A claim that holds, and which of the starts are certainly below every lower bound on P that the window
+/// A claim that is true, and which of the starts are certainly below every lower bound on P that the window
 /// gives, at every phase and frequency.
 struct VerifiedWindow {
   WindowFloor floor;

@@ -1,5 +1,5 @@
-// How the error of the single-channel tracker moves from sample to sample, as a recursion of numbers: what a
-// verified window (window_claim.hpp) comes to. docs/single-channel.md, section 4; docs/rounding.md,
+// How the error of the single-channel tracker moves from sample to sample, as a recursion of numbers that
+// follows from a verified window (window_claim.hpp). docs/single-channel.md, section 4; docs/rounding.md,
 // "The single-channel tracker".
 //
 // With x_k = |e_k| in the metric P_k^-1, rounding that adds at most rho to e in it and mu P to P in a step,
@@ -20,18 +20,18 @@ namespace veritrack::single_channel {
 /// The numbers of the recursion. Needs the upward mode.
 class WindowErrors {
  public:
-  /// Of a claim that is verified for this design, under noise |v| <= V (relative to the amplitude) and slew
-  /// |w| <= W (rad/sample per sample).
+  /// For a claim verified for this design, under noise |v| <= V (relative to the amplitude) and slew |w| <= W
+  /// (rad/sample per sample).
   WindowErrors(const trackers::ToneModel<rigor::Interval>& design, const WindowClaim& claim,
                const rigor::Interval& noise, const rigor::Interval& slew);
 
   /// True only when errors of at most R for a window are followed by errors of at most R for ever.
   [[nodiscard]] bool keeps_radius() const;
-  /// What a window makes of errors of at most `level` throughout it.
+  /// A bound on the error after a window in which errors are at most `level`.
   [[nodiscard]] rigor::Interval after_window(const rigor::Interval& level) const;
   /// kappa_n + c R sum kappa, to the power 1/n: by which errors shrink a sample, in the mean over a window.
   [[nodiscard]] rigor::Interval rate() const;
-  /// An upper bound on u for which keeps_radius would hold; below zero or not finite when there is none.
+  /// An upper bound on u for which keeps_radius would be true; below zero or not finite when there is none.
   [[nodiscard]] rigor::Interval largest_input() const;
   /// Bounds on x_0, ..., x_samples for x_0 <= start; nothing unless all of them are at most R.
   [[nodiscard]] std::optional<std::vector<double>> levels(double start, int samples) const;
@@ -44,7 +44,7 @@ class WindowErrors {
  private:
   /// kappa_n + c sum kappa level: what n samples make of errors of at most `level`, in terms of it.
   [[nodiscard]] rigor::Interval factor(const rigor::Interval& level) const;
-  /// What rounding, and what noise, slew and rounding add in so many samples.
+  /// The contributions of rounding, and of noise, slew and rounding, in this many samples.
   [[nodiscard]] rigor::Interval pushed_by_rounding(std::size_t samples) const;
   [[nodiscard]] rigor::Interval pushed(std::size_t samples) const;
   [[nodiscard]] double next(const std::vector<double>& levels) const;

@@ -1,5 +1,5 @@
-// What the proposals of windows look at: phases and frequencies of a grid, in floating point, several points
-// at once (window_grid_lanes.hpp).
+// The samples behind proposals of windows: phases and frequencies of a grid, in floating point, several
+// points at once (window_grid_lanes.hpp).
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ inline constexpr int kGridPoints = kGridPhases * kGridFrequencies;
 inline constexpr int kWeights = 10;  ///< of a curvature
 inline constexpr int kParts = 9;     ///< of a start
 
-/// What is followed at the points of a grid. Plain, for units for different processors.
+/// The quantities followed at the points of a grid. Plain, for units for different processors.
 struct GridTask {
   trackers::ToneModel<double> design;
   WindowAssumption assumption;
@@ -34,7 +34,7 @@ struct GridVariances {
   double frequency = 0.0;
 };
 
-/// What is seen under the assumption, for windows of every length up to the longest.
+/// The results under the assumption, for windows of every length up to the longest.
 struct GridView {
   double shares[kLongestWindow];                // NOLINT: plain
   double signal_uncertainties[kLongestWindow];  // NOLINT

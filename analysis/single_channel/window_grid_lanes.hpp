@@ -1,5 +1,6 @@
 // The points of a grid in the lanes of registers: part of window_grid.hpp. As window_cell_lanes.hpp, each
-// unit that includes it is compiled for one set of instructions, whose number of lanes all its types bear.
+// unit that includes it is compiled for one set of instructions, whose number of lanes is a parameter of all
+// its types.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,7 @@ struct GridNumber {
   friend GridNumber operator/(const GridNumber& a, const GridNumber& b) { return GridNumber(a.at / b.at); }
   friend GridNumber sqrt(const GridNumber& x) { return GridNumber(R::sqrt(x.at)); }
   friend GridNumber abs(const GridNumber& x) { return GridNumber(R::absolute(x.at)); }
-  /// The second where one of them is no number.
+  /// The second where either is NaN.
   friend GridNumber max(const GridNumber& a, const GridNumber& b) { return GridNumber(R::max(a.at, b.at)); }
   friend GridNumber min(const GridNumber& a, const GridNumber& b) { return GridNumber(R::min(a.at, b.at)); }
 };

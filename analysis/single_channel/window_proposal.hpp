@@ -8,7 +8,7 @@
 
 namespace veritrack::single_channel {
 
-/// What a window is wanted for; amplitude 1, epsilon = 0.
+/// The purpose of a window; amplitude 1, epsilon = 0.
 struct WindowRequest {
   trackers::ToneModel<double> design;
   double lowest_frequency = 0.0;   ///< rad/sample
@@ -16,8 +16,8 @@ struct WindowRequest {
   double slew = 0.0;               ///< rad/sample per sample
 };
 
-/// Claims for radii from small to large, each with the loosening and the length that leave most room: what is
-/// seen on a grid of phases and frequencies, with some slack. Empty when the covariance does not settle.
+/// Claims for radii from small to large, each with the loosening and the length that leave most room, as
+/// computed on a grid of phases and frequencies, with some slack. Empty when the covariance does not settle.
 [[nodiscard]] std::vector<WindowClaim> propose_windows(const WindowRequest& request);
 
 /// The same claim with values that are easier to verify; `slack` is a relative margin.

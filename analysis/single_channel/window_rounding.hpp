@@ -1,5 +1,5 @@
-// What rounding adds to a step of the single-channel tracker in the states of a window (docs/rounding.md,
-// "The single-channel tracker").
+// The rounding of a step of the single-channel tracker in the states of a window (docs/rounding.md, "The
+// single-channel tracker").
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace veritrack::single_channel {
 
-/// What of the tracked signal matters to rounding.
+/// The properties of the tracked signal that matter to rounding.
 struct TrackedSignal {
   rigor::Interval amplitude = rigor::Interval(1.0);  ///< signal units
   rigor::Interval band;                              ///< frequencies, rad/sample

@@ -32,7 +32,7 @@ struct Quantity {
   /// sentence. The value is then empty.
   std::optional<std::string> not_applicable;
   Sense sense = Sense::enclosure;
-  /// What it is, for a reader, with its unit; empty where only the source's symbol says it.
+  /// A description for a reader, with the unit; empty where only the source's symbol describes it.
   std::string words = {};
 
   [[nodiscard]] bool applies() const { return !not_applicable; }
@@ -65,7 +65,7 @@ struct Feasibility {
 /// Exact numbers from which a part of a derivation can be verified without the search that found it: the
 /// names are explained in docs/certificate-format.md.
 struct Evidence {
-  std::string name;  ///< what it proves, e.g. "start"
+  std::string name;  ///< its purpose, e.g. "start"
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, rigor::DynamicMatrix>> matrices;
   std::vector<std::pair<std::string, std::string>> decimals = {};  ///< as a sentence says them
@@ -88,7 +88,7 @@ struct Derivation {
 /// The quantity of that name. Throws std::out_of_range when there is none.
 [[nodiscard]] const Quantity& find_quantity(const Derivation& derivation, const std::string& name);
 
-/// The quantity of that name when there is one and it applies; else null.
+/// The quantity of that name if it exists and applies; otherwise null.
 [[nodiscard]] const Quantity* applicable_quantity(const Derivation& derivation, std::string_view name);
 
 }  // namespace veritrack::theorems

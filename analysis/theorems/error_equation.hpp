@@ -35,8 +35,8 @@ struct ErrorEquation {
 /// The constants for that radius. Empty values where q1 may be zero. Needs the upward rounding mode.
 [[nodiscard]] ErrorEquation error_equation(const TrackerInput& input, const rigor::Interval& radius);
 
-/// The radius among 1/2, 1/4, ... for which `value` has the largest lower end; every radius is valid, so that
-/// the choice needs no proof. 1/2 when there is none.
+/// The radius among 1/2, 1/4, ... for which `value` has the largest lower end; every radius is valid, so the
+/// choice needs no proof. 1/2 when there is none.
 [[nodiscard]] rigor::Interval best_radius(
     const std::function<rigor::Interval(const rigor::Interval&)>& value);
 

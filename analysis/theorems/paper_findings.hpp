@@ -1,9 +1,9 @@
 // The ledger of slips: what kind of mistake a REFUTED statement about a paper is, and where in the paper it
 // stands.
 //
-// REFUTED says that a sentence is false. It does not say how much that matters, and with a scan not even that
-// the authors wrote the sentence. The ledger says that, once for each place; a test holds that every
-// statement about a paper that can be REFUTED is in it.
+// REFUTED means that a sentence is false. It does not say how much that matters, nor, with a scan, whether
+// the authors wrote the sentence. The ledger says both, once for each place; a test checks that it has every
+// statement about a paper that can be REFUTED.
 #pragma once
 
 #include <string>
@@ -40,8 +40,8 @@ struct PaperFinding {
 /// The line for a claim: that of its id, else that of its id without the last part; null when there is none.
 [[nodiscard]] const PaperFinding* find_paper_finding(std::string_view claim);
 
-/// Puts kind and place before the reason of every REFUTED statement, or condition, that the ledger has. What
-/// is illegible becomes UNDECIDED, whatever the verdict on our reading; the reason says what that would be.
+/// Puts kind and place before the reason of every REFUTED statement, or condition, that the ledger has. An
+/// illegible statement becomes UNDECIDED, whatever the verdict on our reading; the reason gives that verdict.
 void cite_findings(std::vector<Statement>& statements);
 void cite_findings(Derivation& derivation);
 

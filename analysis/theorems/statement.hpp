@@ -16,7 +16,7 @@ struct Statement {
   rigor::Verdict verdict = rigor::Verdict::undecided;
   std::string witness;  ///< one line that can be evaluated again: the point or set, and the two sides there
   std::vector<Quantity> evidence;  ///< the enclosures that decided it
-  /// Decimals that stand in the sentence, by name, where the id alone does not make it what it is.
+  /// Decimals in the sentence, by name, where the id alone does not determine the sentence.
   std::vector<std::pair<std::string, std::string>> values = {};
 };
 

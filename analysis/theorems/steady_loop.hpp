@@ -29,7 +29,7 @@ struct SteadyLoop {
   [[nodiscard]] rigor::Interval squared_factor() const;
   /// Are the two factors certainly a complex pair?
   [[nodiscard]] bool oscillates() const;
-  /// The frequency's constant error when it departs by `drift` a sample from what the model predicts,
+  /// The frequency's constant error when it departs by `drift` a sample from the model's prediction,
   /// rad/sample: drift/(epsilon + b/a).
   [[nodiscard]] rigor::Interval lag(const rigor::Interval& drift) const;
   /// Its error, true minus estimated, when it has risen by `slew` a sample for ever and is now `frequency`.

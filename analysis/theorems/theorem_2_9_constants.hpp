@@ -30,9 +30,8 @@ struct Theorem29Input {
   /// Two enclosures, even with the same endpoints, cannot show this; without it (2.24) is undecided.
   bool q1_equals_q2 = false;
   /// Enclosures of the largest values that the assumptions on signal and start allow. Without one of them the
-  /// condition that compares it with what the theorem assumes is undecided. Where only an upper bound is
-  /// known, give the interval from a value that occurs up to the bound: a condition is refuted by the lower
-  /// end.
+  /// condition that compares it with the theorem's assumption is undecided. Where only an upper bound is
+  /// known, give the interval from an attained value to the bound: a condition is refuted by the lower end.
   std::optional<rigor::Interval> largest_state;      ///< of |x(k)|, for (2.26)
   std::optional<rigor::Interval> process_noise;      ///< of |w(k)|, w(k) = x(k+1) - f(x(k)), for (2.28)
   std::optional<rigor::Interval> measurement_noise;  ///< of |v(k)|, for (2.29)

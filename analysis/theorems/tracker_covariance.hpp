@@ -49,7 +49,7 @@ struct MatrixRange {
 [[nodiscard]] std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const EstimateTube& tube,
                                                       int window);
 
-/// Does P(k|k) lie in the range for k = 0, ..., window too, when the filter starts with P(0|0) = `start` (in
+/// Does P(k|k) also lie in the range for k = 0, ..., window, when the filter starts with P(0|0) = `start` (in
 /// the frame of the estimated phase) and every estimate stays in the tube? Nothing is refuted.
 [[nodiscard]] rigor::Verdict decide_start(const rigor::IntervalMatrix<3>& start, const MatrixRange& range,
                                           const IntervalDesign& design, const EstimateTube& tube, int window);

@@ -1,5 +1,5 @@
-// What chapter 4 of the thesis asserts of the transform of a block and of its linearisation, as statements
-// with verdicts. No design enters.
+// The assertions of chapter 4 of the thesis about the transform of a block and its linearisation, as
+// statements with verdicts. They do not depend on a design.
 #pragma once
 
 #include <vector>

@@ -29,11 +29,11 @@ static_assert(static_cast<std::size_t>(Paper::cited) + 1 == kAllPapers.size());
 /// "B. F. La Scala, ...", for a heading.
 [[nodiscard]] std::string_view to_string(Paper paper);
 
-/// What a claim is to the publication.
+/// The relation of a claim to the publication.
 enum class PaperRole {
   sentence,    ///< the publication asserts it
   hypothesis,  ///< the publication assumes it, and we ask whether its own tracker and design satisfy it
-  repair       ///< ours: what a sentence should say
+  repair       ///< ours: a corrected sentence
 };
 
 /// The place of one claim.
@@ -41,10 +41,10 @@ struct PaperPlace {
   Paper paper = Paper::la_scala_1994;
   PaperRole role = PaperRole::sentence;
   std::string place;        ///< e.g. "thesis, theorem 2.9, (2.43)", with the reading where there are two
-  std::string_view repair;  ///< what is proved in place of a false one; empty when nothing is
+  std::string_view repair;  ///< the claim proved in place of a false one; empty when there is none
 };
 
-/// Is this a claim about a publication? Theorems of ours are none, nor are claims about designs.
+/// Is this a claim about a publication? Our own theorems and claims about designs are not.
 [[nodiscard]] bool is_published(std::string_view claim);
 
 /// The place of a claim, by its id: of a statement, or "derivation/condition". Throws std::out_of_range when

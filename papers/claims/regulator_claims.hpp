@@ -1,4 +1,4 @@
-// What sections 3.5 and chapter 5 of the thesis assert with numbers that no design of ours changes: the
+// Numerical assertions of section 3.5 and chapter 5 of the thesis that do not depend on our designs: the
 // variance (3.12), the plant of the examples, and the bounds on P of the least squares with exponential
 // forgetting and resetting (EFRA), as statements with verdicts.
 #pragma once

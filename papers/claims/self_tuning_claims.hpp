@@ -1,5 +1,5 @@
-// What chapter 5 of the thesis says of least squares with condition number monitoring and of the loop that it
-// closes: lemma 5.2, theorem 5.2, (5.5), (5.23) and (5.24).
+// The assertions of chapter 5 of the thesis about least squares with condition number monitoring and the loop
+// that it closes: lemma 5.2, theorem 5.2, (5.5), (5.23) and (5.24).
 #pragma once
 
 #include <vector>

@@ -2,8 +2,8 @@
 // symbols, and two runs that give the same expression compute the same for all numbers.
 //
 // -a b = -(a b), -a - b = -(a + b), a - a = 0, sums and products in either order, sin(-a) = -sin a, cos(-a) =
-// cos a, and half a turn: sin(a + pi) = -sin a, cos(a + pi) = -cos a. Nothing else is used, so that equal
-// expressions are equal, and different ones may be equal, too.
+// cos a, and half a turn: sin(a + pi) = -sin a, cos(a + pi) = -cos a. Nothing else is used: equal expressions
+// have equal values, but different expressions may, too.
 #pragma once
 
 #include <algorithm>
@@ -107,7 +107,7 @@ class SignedExpression {
             first.negative_};
   }
 
-  /// The number, of what is no angle with half a turn.
+  /// The number, for a value that is not an angle with half a turn.
   [[nodiscard]] int whole() const {
     if (half_turn_) {
       throw std::logic_error("half a turn is only added and turned into sine and cosine");

@@ -1,6 +1,6 @@
-// What P. Zarchan's slides "Tracking a Sine Wave" show in single runs and what is true of their four filters
-// in every run: symmetries, that without process noise nothing settles, and runs with any noise of a bounded
-// size.
+// The findings of P. Zarchan's slides "Tracking a Sine Wave" in single runs, and properties of their four
+// filters in every run: symmetries, the lack of a steady state without process noise, and runs with any noise
+// of a bounded size.
 #pragma once
 
 #include <vector>

@@ -21,7 +21,7 @@ struct HorizonQuestion {
 /// Needs the upward rounding mode.
 ///
 /// States and covariance together are m + A r, r in a box: a step maps that into f(m) + J A r + J_v v, J over
-/// a box that holds the set, and A is chosen anew from an orthogonal matrix (Lohner).
+/// a box that holds the set, and A is chosen again from an orthogonal matrix (Lohner).
 [[nodiscard]] rigor::Interval frequency_after(const HorizonQuestion& question);
 
 }  // namespace veritrack::theorems

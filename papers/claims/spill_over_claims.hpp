@@ -1,5 +1,5 @@
-// Two papers of which one page each is at hand: subset averaged median filters, and a pendulum that is driven
-// and calmed by impulses. What these pages claim, decided.
+// The claims, decided, of two papers of which we have one page each: on subset averaged median filters, and
+// on a pendulum that is driven and calmed by impulses.
 #pragma once
 
 #include <cstddef>

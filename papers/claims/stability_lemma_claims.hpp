@@ -1,4 +1,4 @@
-// What chapter 2 of the thesis says in its lemmas and theorems on stability, decided as it is printed.
+// The lemmas and theorems on stability of chapter 2 of the thesis, decided as printed.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// What the thesis says of theorem 2.8, of the theorems that it compares with, of its design rules and of what
-// is left to do, decided as it is printed.
+// The assertions of the thesis about theorem 2.8, the theorems that it compares with, its design rules and
+// its open questions, decided as printed.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// What chapter 5 of the thesis says of the loop that it regulates: the disturbance, the polynomials, the
-// ideal controller, and what the least squares do in the long run, lemma 5.3 and corollary 5.2.1.
+// The assertions of chapter 5 of the thesis about the loop that it regulates: the disturbance, the
+// polynomials, the ideal controller, and least squares in the long run, lemma 5.3 and corollary 5.2.1.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What chapter 4 of the thesis says of the block tracker's starts, as statements with verdicts.
+// The assertions of chapter 4 of the thesis about the block tracker's starts, as statements with verdicts.
 #pragma once
 
 #include <vector>

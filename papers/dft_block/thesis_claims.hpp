@@ -1,5 +1,6 @@
-// What chapter 4 of the thesis says of its filter bank, its noise, observability, tuning and initial
-// estimates, as statements with verdicts, beside theorems/block_transform_claims.hpp. No design enters.
+// The assertions of chapter 4 of the thesis about its filter bank, its noise, observability, tuning and
+// initial estimates, as statements with verdicts, beside papers/claims/block_transform_claims.hpp. They do
+// not depend on a design.
 //
 // B. F. La Scala, "Approaches to Frequency Tracking and Vibration Control", PhD thesis, Australian National
 // University, 1994.
@@ -15,11 +16,11 @@ namespace veritrack::dft_block {
 /// upward mode, as all of these do.
 [[nodiscard]] std::vector<theorems::Statement> filter_bank_claims();
 
-/// Sections 4.2.1 to 4.3.1: the rows that are not zero, what the outputs do not tell, and the square root of
+/// Sections 4.2.1 to 4.3.1: the rows that are not zero, the ambiguity of the outputs, and the square root of
 /// (4.12).
 [[nodiscard]] std::vector<theorems::Statement> model_output_claims();
 
-/// Section 4.3.1: (4.26) and its rank, and what one pair of outputs tells.
+/// Section 4.3.1: (4.26) and its rank, and the information in one pair of outputs.
 [[nodiscard]] std::vector<theorems::Statement> observability_claims();
 
 /// Sections 4.4 and 4.5.1: (4.33) and (4.34), the size of T, Tables 4.1 and 4.2.

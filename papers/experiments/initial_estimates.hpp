@@ -13,7 +13,7 @@ struct InitialEstimates {
 
 /// Of a tone of the model (4.9) with a constant offset, |offset| <= 2 bins, in white Gaussian noise; the
 /// amplitude squared over the variance of the samples is `decibels` dB. Seeds 1, ..., runs. The phase does
-/// not matter: turning all bins leaves (4.35) as it is, and the noise as likely.
+/// not matter: turning all bins changes neither (4.35) nor the law of the noise.
 [[nodiscard]] InitialEstimates initial_estimates(double offset, double decibels, int runs);
 
 }  // namespace veritrack::experiments

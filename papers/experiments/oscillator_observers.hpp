@@ -15,7 +15,7 @@ namespace veritrack::experiments {
 inline constexpr double kTrueFrequency = 3.0;                               // rad/s
 inline constexpr std::array<double, 3> kDisturbances{10.0, 100.0, 1000.0};  // rad/s
 
-/// Of the frequency estimate in a window, rad/s. An estimate that is no number counts as 0.
+/// Of the frequency estimate in a window, rad/s. A NaN estimate counts as 0.
 struct WindowStatistics {
   double mean = 0.0;
   double deviation = 0.0;
@@ -59,7 +59,7 @@ struct Sinusoid {
 [[nodiscard]] double hou_settling(const trackers::AdaptiveObserverDesign& design, const Sinusoid& sinusoid);
 
 /// Hou's observer with the smallest errors at 10 and 100 rad/s among those that settle within `settling` s,
-/// as far as local searches from so many starts find it: a proposal.
+/// as far as local searches from this many starts find it: a proposal.
 [[nodiscard]] trackers::AdaptiveObserverDesign best_hou(double settling, int starts);
 
 }  // namespace veritrack::experiments

@@ -13,7 +13,8 @@ inline constexpr int kStartSamples = 400;     ///< then it is locked within kSta
 inline constexpr double kStartLocked = 0.05;  ///< rad/sample
 
 /// For the starts 1, 2, ..., the same for every design: 1 where it does not lock, 0 where it does. Phase and
-/// frequency error are uniform, amplitude 1, P(0|0) = q2 I. An alias, a turn a sample off, is no lock.
+/// frequency error are uniform, amplitude 1, P(0|0) = q2 I. An alias, a turn a sample off, does not count as
+/// lock.
 [[nodiscard]] std::vector<double> starts_without_lock(const trackers::ToneModel<double>& design, int starts);
 
 }  // namespace veritrack::experiments

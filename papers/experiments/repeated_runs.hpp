@@ -34,7 +34,7 @@ struct Summary {
   double deviation_error = 0.0;  ///< by the fourth moment, for any distribution; NaN for a single run
 };
 
-/// Of at least one value; what is not a number makes all of it NaN.
+/// Of at least one value; a NaN makes all of it NaN.
 [[nodiscard]] Summary summary_of(std::span<const double> values);
 
 /// The value with this share of the values at or below it, 0 <= share <= 1; NaN counts as infinite.

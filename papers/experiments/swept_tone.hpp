@@ -48,7 +48,7 @@ struct SweptToneExperiment {
   double start_variance = 0.0;   ///< P(1|0) = start_variance I; 0: P(1|0) = Q
 };
 
-/// What the trackers of a run are given, and the frequency that they are to find.
+/// The input of the trackers of a run, and the frequency that they are to find.
 struct ToneRun {
   double start = 0.0;                        ///< the frequency at which they start, rad/sample
   std::vector<double> frequency;             ///< rad/sample

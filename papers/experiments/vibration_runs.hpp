@@ -19,16 +19,16 @@ enum class VibrationOrder : std::uint8_t { three, five };
 /// numerator c - a, then denominator b, of the ideal controller; zero beyond the order 3.
 [[nodiscard]] Eigen::VectorXd ideal_parameters(VibrationOrder order);
 
-/// What is unpublished.
+/// The unpublished conditions.
 struct VibrationStart {
   double first = 1.0, second = 0.0;  ///< e_{-1} and e_{-2}, units of the output
   double covariance = 1.0;           ///< P_{-1} = this times I; EFRA keeps [0.011, 10.6]
   Eigen::VectorXd parameters;        ///< theta_0; b_0 of it is not 0
 };
 
-/// What theta_0 knows.
+/// The knowledge in theta_0.
 enum class FirstGuess : std::uint8_t {
-  nothing,    ///< zero, but for b_0, uniform in [1, 4]
+  nothing,    ///< zero, except b_0, uniform in [1, 4]
   near_ideal  ///< the ideal one, each entry with a normal error of deviation 0.5
 };
 /// Drawn: e normal with deviation 1, log P_{-1} uniform from 0.1 to 10, and theta_0.
@@ -46,7 +46,7 @@ struct VibrationRun {
 };
 [[nodiscard]] VibrationRun vibration_run(VibrationOrder order, Estimator estimator,
                                          const VibrationStart& start, int samples, double limit = 1e3);
-/// theta after so many samples.
+/// theta after this many samples.
 [[nodiscard]] Eigen::VectorXd limiting_parameters(VibrationOrder order, Estimator estimator,
                                                   const VibrationStart& start, int samples,
                                                   double limit = 1e3);

@@ -1,5 +1,5 @@
 // Sentences of Praly, Marconi and Isidori, section IV, on the injectivity of T: the printed Lipschitz
-// constant, where there is none, and the factor 2 of (9).
+// constant, where none exists, and the factor 2 of (9).
 #pragma once
 
 #include <vector>

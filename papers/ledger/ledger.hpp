@@ -12,10 +12,10 @@
 
 namespace veritrack::reports::ledger {
 
-/// In place of a design where none enters.
+/// In place of a design, for claims that do not depend on one.
 inline constexpr const char* kNoDesign = "none";
 
-/// What was found for one design.
+/// The result for one design.
 struct DesignVerdict {
   /// Its file without folder and ending, e.g. "la-scala-1994-figure-3.5", or kNoDesign.
   std::string design;
@@ -27,7 +27,7 @@ struct DesignVerdict {
 struct Row {
   std::string claim;  ///< its id, as `veritrack explain` and the certificates have it
   theorems::PaperPlace place;
-  std::string words;                    ///< what is claimed: plain text, or Markdown with a formula
+  std::string words;                    ///< the claim: plain text, or Markdown with a formula
   std::vector<DesignVerdict> verdicts;  ///< one for each design that it was evaluated for, never empty
   const theorems::PaperFinding* finding = nullptr;  ///< what mistake it is, or that it is illegible
 
@@ -38,8 +38,8 @@ struct Row {
   /// Is it that for any design?
   [[nodiscard]] bool is_anywhere(rigor::Verdict verdict) const;
 
-  /// Does the scan leave open what is printed? It is then UNDECIDED for every design, whatever is true of our
-  /// reading of it (cite_findings).
+  /// Does the scan leave the printed text open? The claim is then UNDECIDED for every design, whatever the
+  /// verdict on our reading (cite_findings).
   [[nodiscard]] bool is_illegible() const;
   /// PROVED for every design.
   [[nodiscard]] bool stands() const;
@@ -50,7 +50,7 @@ struct Row {
 /// All rows, by publication, those of one in the order of its certificates. Opens its own rounding scopes.
 [[nodiscard]] std::vector<Row> collect();
 
-/// What follows from a verdict for the publication, in a few words; `rows` is the whole ledger, in which a
+/// The consequence of a verdict for the publication, in a few words; `rows` is the whole ledger, in which a
 /// repaired reading of the same sentence may stand.
 [[nodiscard]] std::string consequence(const Row& row, const std::vector<Row>& rows);
 

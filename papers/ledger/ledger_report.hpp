@@ -1,4 +1,5 @@
-// The ledger as a report: what of the publications stands, what falls, what is proved in its place.
+// The ledger as a report: the claims of the publications that stand, those that fall, and what is proved in
+// their place.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,7 @@
 
 namespace veritrack::reports::ledger {
 
-/// What one report of `veritrack reproduce` found of what a publication prints of its simulations.
+/// The findings of one report of `veritrack reproduce` about a publication's printed simulations.
 struct SimulatedReport {
   std::string name;
   int runs = 0;
@@ -29,8 +30,8 @@ struct SimulatedReport {
 [[nodiscard]] std::string ledger_document(const std::vector<Row>& rows,
                                           const std::vector<SimulatedReport>& simulated);
 
-/// report.md and what is asked for into `directory`, whole or not at all. Throws certificates::OutputError
-/// when files cannot be written.
+/// Writes report.md and the requested files into `directory`, whole or not at all. Throws
+/// certificates::OutputError when files cannot be written.
 [[nodiscard]] WrittenReport write_ledger(int runs, const std::filesystem::path& directory,
                                          const page::Renderings& renderings = {},
                                          const ReproductionProgress& progress = {});

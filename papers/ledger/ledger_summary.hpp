@@ -1,4 +1,5 @@
-// The ledger on one page: of each publication what stands, what falls, and what is proved in its place.
+// The ledger on one page: for each publication the claims that stand, those that fall, and what is proved in
+// their place.
 #pragma once
 
 #include <span>
@@ -10,8 +11,8 @@
 
 namespace veritrack::reports::ledger {
 
-/// A publication, or a part of one, in a few words. The words are ours; the rows that they rest on are named,
-/// and a test holds their verdicts against the words.
+/// A publication, or a part of one, in a few words. The words are ours; the rows behind them are named, and a
+/// test compares their verdicts with the words.
 struct SummaryLine {
   theorems::Paper paper;
   std::string_view publication;

@@ -27,7 +27,7 @@ struct LimitPoint {
 /// A point is near its bound when it is at most this far above it.
 inline constexpr double kNearBound = 1.0;  // dB
 
-/// A difference counts from this many standard errors on: what is smaller may be chance.
+/// A difference counts from this many standard errors on: a smaller one may be chance.
 inline constexpr double kStandardErrors = 2.0;
 
 /// Whether a point is near its bound, as far as its runs say.

@@ -1,5 +1,5 @@
-// What sections 5.3 and 5.4 of the thesis say of the controllers in which the self-tuning regulator ends,
-// decided for the printed ones (Tables 5.1 and 5.2), as statements with verdicts.
+// The assertions of sections 5.3 and 5.4 of the thesis about the limiting controllers of the self-tuning
+// regulator, decided for the printed ones (Tables 5.1 and 5.2), as statements with verdicts.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace veritrack::regulator {
 /// "chapter-5/limits/...". Needs the upward mode.
 [[nodiscard]] std::vector<theorems::Statement> limit_loop_claims();
 
-/// Their polynomials: multiples of the ideal ones, poles, and what the internal model principle asks for. Ids
-/// "chapter-5/limits/..." and "chapter-5/internal-model/...". Needs the upward mode.
+/// Their polynomials: multiples of the ideal ones, poles, and the requirement of the internal model
+/// principle. Ids "chapter-5/limits/..." and "chapter-5/internal-model/...". Needs the upward mode.
 [[nodiscard]] std::vector<theorems::Statement> limit_polynomial_claims();
 
 }  // namespace veritrack::regulator

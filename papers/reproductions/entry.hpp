@@ -1,8 +1,7 @@
-// A printed number or sentence beside what our simulation gives, and the verdict: the only place where it is
-// reached.
+// A printed number or sentence beside our simulation, and the verdict, which is reached only here.
 //
-// A difference counts from two standard errors on, the half unit of the last printed digit allowed for. What
-// so many runs do not decide is undecided, and the report says that more seeds would decide it.
+// A difference counts from two standard errors on, the half unit of the last printed digit allowed for. An
+// entry that this many runs do not decide is undecided, and the report says that more seeds would decide it.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +15,11 @@ namespace veritrack::reports {
 /// "2.503 ± 0.012"; "± unknown" where the error is not finite.
 [[nodiscard]] std::string with_error(double value, double error);
 
-/// A number as it is printed. Tables of them stand beside their sources, as data.
+/// A printed number. Tables of them are data, beside their sources.
 struct PrintedNumber {
   std::string_view id;     ///< "la-scala-1994/table-3.2/figure-3.4"
   std::string_view place;  ///< paper, section and table or figure, for a reader
-  std::string_view what;   ///< what the number is, with its unit
+  std::string_view what;   ///< the meaning of the number, with its unit
   std::string_view text;   ///< its digits
 
   [[nodiscard]] double value() const;
@@ -28,14 +27,14 @@ struct PrintedNumber {
   [[nodiscard]] double half_unit() const;
 };
 
-/// A sentence, or what a figure is said to show, in our words.
+/// A sentence, or the claim about a figure, in our words.
 struct PrintedSentence {
   std::string_view id;
   std::string_view place;
   std::string_view what;
 };
 
-/// Whether what is printed came out, as far as the runs say, and our number with its error.
+/// Whether the runs reproduce the printed number or sentence, and our number with its error.
 enum class ComesOut : std::uint8_t { yes, no, undecided };
 struct Outcome {
   ComesOut comes_out = ComesOut::undecided;
@@ -63,8 +62,8 @@ struct Outcome {
 /// The same to within a part of it, under conditions that are ours.
 [[nodiscard]] Outcome near_number(const PrintedNumber& printed, double ours, double tolerance);
 
-/// Of a sentence about what happens: in the one run that was printed, so that at least 2.5 % of ours should
-/// do it; in more than half of the runs; in all of them; in none.
+/// For a sentence about an event: in the one run that was printed, so that at least 2.5 % of ours should do
+/// it; in more than half of the runs; in all of them; in none.
 enum class Claimed : std::uint8_t { sometimes, usually, always, never };
 /// `held`: in which of the runs it happened. `always` and `never` come out when no run of at least 100 says
 /// otherwise.
@@ -83,7 +82,7 @@ enum class Claimed : std::uint8_t { sometimes, usually, always, never };
 /// Under which conditions ours was computed.
 struct Conditions {
   enum class Kind : std::uint8_t {
-    published,  ///< those of the paper, and what it leaves open does not matter
+    published,  ///< those of the paper, and its unpublished conditions do not matter
     chosen,     ///< some are unpublished and were chosen by us
     searched    ///< some are unpublished; the outcome is the same for all the choices tried
   };
@@ -100,7 +99,7 @@ struct Entry {
   std::string because;  ///< why it cannot be compared, or for which choices it does not agree
 };
 
-/// What came out agrees, under whatever conditions. What did not come out does not agree under published
+/// A reproduced entry agrees, under any conditions. One that is not reproduced does not agree under published
 /// conditions, nor when the choices were searched, and cannot be compared when they are ours.
 [[nodiscard]] Entry entry_of(const PrintedNumber& printed, const Outcome& outcome,
                              const Conditions& conditions = {});
@@ -117,14 +116,14 @@ struct Entry {
 /// The rows as a table in Markdown: place, what, printed, ours, verdict, id.
 [[nodiscard]] std::string entry_table(std::span<const Entry> entries);
 
-/// "Of 12 entries, 8 agree, 3 do not agree, 1 cannot be compared." `fitted`: what was fitted to the very
-/// numbers that are compared, "a signal fitted to this table": then the sentence begins with it.
+/// "Of 12 entries, 8 agree, 3 do not agree, 1 cannot be compared." `fitted`: the quantity fitted to the
+/// compared numbers themselves, "a signal fitted to this table": then the sentence begins with it.
 [[nodiscard]] std::string count_sentence(std::span<const Entry> entries, std::string_view fitted = {});
 
-/// In place of what a report concludes, when its runs are too few.
+/// In place of a report's conclusion, when its runs are too few.
 inline constexpr const char* kNoConclusion = "So few runs allow no conclusion.\n\n";
 
-/// What so many runs are too few for, a sentence; empty when nothing is undecided.
+/// The questions for which this many runs are too few, a sentence; empty when nothing is undecided.
 [[nodiscard]] std::string too_few_runs(std::span<const Entry> entries, int runs);
 
 }  // namespace veritrack::reports

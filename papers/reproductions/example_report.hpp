@@ -24,8 +24,8 @@ struct StartRates {
 [[nodiscard]] std::vector<StartRates> simulate_published_examples(
     int seeds, const std::function<void(int, int)>& progress = {});
 
-/// What so many seeds are too few for, a sentence: two standard errors leave it open whether a reading has a
-/// start with every statement for at least a tenth of the seeds. Empty when they are enough.
+/// The question for which this many seeds are too few, a sentence: two standard errors leave it open whether
+/// a reading has a start with every statement for at least a tenth of the seeds. Empty when they are enough.
 [[nodiscard]] std::string too_few_seeds(const std::vector<StartRates>& rates, int seeds);
 
 /// The sentence that says which reading the published figures can have come from: one for which a start
@@ -35,8 +35,8 @@ struct StartRates {
 /// Told how many of how many starts have been simulated.
 using StartProgress = std::function<void(int, int)>;
 
-/// report.md, its figures and what is asked for into `directory`, whole or not at all. Throws FigureError,
-/// and InputError when files cannot be written.
+/// Writes report.md, its figures and the requested files into `directory`, whole or not at all. Throws
+/// FigureError, and InputError when files cannot be written.
 [[nodiscard]] WrittenReport write_example_report(int seeds, const std::filesystem::path& directory,
                                                  const page::Renderings& renderings = {},
                                                  const StartProgress& progress = {});

@@ -21,14 +21,14 @@ struct LimitStudy {
 
 [[nodiscard]] LimitStudy simulate_limits(int runs, const limits::StudyProgress& progress = {});
 
-/// What the runs are too few for, a sentence; empty when every threshold is decided.
+/// The questions for which the runs are too few, a sentence; empty when every threshold is decided.
 [[nodiscard]] std::string undecided_thresholds(const LimitStudy& study);
 
 /// The document, without its figures.
 [[nodiscard]] std::string limit_document(const LimitStudy& study);
 
-/// report.md, its figures and what is asked for into `directory`, whole or not at all. Throws FigureError,
-/// and OutputError when files cannot be written.
+/// Writes report.md, its figures and the requested files into `directory`, whole or not at all. Throws
+/// FigureError, and OutputError when files cannot be written.
 [[nodiscard]] WrittenReport write_limit_report(int runs, const std::filesystem::path& directory,
                                                const page::Renderings& renderings = {},
                                                const limits::StudyProgress& progress = {});

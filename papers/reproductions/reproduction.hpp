@@ -18,28 +18,28 @@ namespace veritrack::reports {
 /// Told how many of how many pieces of work are done.
 using ReproductionProgress = std::function<void(int, int)>;
 
-/// What a reproduction found: the rows that a ledger collects, and the document about them.
+/// The result of a reproduction: the rows that a ledger collects, and the document about them.
 struct Findings {
   std::vector<Entry> entries;
   std::string markdown;
   std::vector<Figure> figures;
 };
 
-/// report.md, its figures and what is asked for into `directory`, whole or not at all. Throws FigureError,
-/// and certificates::OutputError when files cannot be written.
+/// Writes report.md, its figures and the requested files into `directory`, whole or not at all. Throws
+/// FigureError, and certificates::OutputError when files cannot be written.
 [[nodiscard]] WrittenReport write_findings(Findings findings, int runs,
                                            const std::filesystem::path& directory,
                                            const page::Renderings& renderings);
 
-/// A report: its name on the command line, what it is about (after "the"), and how it is written. `runs` is
-/// the number of noise seeds of docs/reports.
+/// A report: its name on the command line, its subject (after "the"), and the function that writes it. `runs`
+/// is the number of noise seeds of docs/reports.
 struct Reproduction {
   std::string_view name;
   std::string_view about;
   int runs;
   WrittenReport (*write)(int runs, const std::filesystem::path& directory, const page::Renderings& renderings,
                          const ReproductionProgress& progress);
-  /// What is written, where the report compares printed numbers with ours; null where it does not.
+  /// The written result, where the report compares printed numbers with ours; otherwise null.
   Findings (*reproduce)(int runs, const ReproductionProgress& progress) = nullptr;
 };
 

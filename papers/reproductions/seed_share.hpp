@@ -6,8 +6,8 @@
 
 namespace veritrack::reports {
 
-/// Wilson's score interval for a share that was seen in so many seeds, at two standard errors: E. B. Wilson,
-/// J. American Statistical Association 22 (1927), 209. It says something also where none, or all, were seen.
+/// Wilson's score interval for a share observed in this many seeds, at two standard errors: E. B. Wilson, J.
+/// American Statistical Association 22 (1927), 209. It is also informative where none, or all, were observed.
 [[nodiscard]] inline std::array<double, 2> share_interval(double share, int seeds) {
   constexpr double kErrors = 2.0;
   const double n = seeds;

@@ -16,7 +16,7 @@ inline constexpr double kSet1Noise = 1.0;
 /// printed ones; over at most 60 runs.
 [[nodiscard]] Figure draw_noise_scan(const std::vector<experiments::SonarBlock>& pass, int runs);
 
-/// What is measured at the largest and at the smallest range: Figures 4.4, 4.7 and 4.10.
+/// The measurements at the largest and at the smallest range: Figures 4.4, 4.7 and 4.10.
 [[nodiscard]] Figure draw_signals(double doppler);
 
 /// Estimates and errors of a run of set number + 1, at the printed noise and at that of set 1.

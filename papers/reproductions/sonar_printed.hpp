@@ -8,7 +8,8 @@
 
 namespace veritrack::reports::printed {
 
-/// A data set: the noise of Table 4.1, the design and the sums of Table 4.2, and what the text says of it.
+/// A data set: the noise of Table 4.1, the design and the sums of Table 4.2, and the statements of the text
+/// about it.
 struct SonarSet {
   double far_decibels;  ///< SNR at the largest range; 10 dB more at the smallest
   double noise_variance;

@@ -1,4 +1,4 @@
-// What the thesis prints in Table 3.2 and the 1996 paper in Table I (both under
+// The printed numbers of Table 3.2 of the thesis and Table I of the 1996 paper (both under
 // trackers/quadrature/quadrature_ekf.hpp).
 #pragma once
 

@@ -18,8 +18,8 @@ namespace veritrack::reports::vibration {
 /// Numerator by denominator at a frequency, rad/sample: as the thesis draws it.
 [[nodiscard]] std::complex<double> response(const Eigen::VectorXd& parameters, double frequency);
 
-/// The numerator at the vibration over what is left of the denominator there, without the factor
-/// 1 - 2 cos(omega) z^-1 + z^-2.
+/// The numerator at the vibration over the denominator there, without its factor 1 - 2 cos(omega) z^-1 +
+/// z^-2.
 [[nodiscard]] std::complex<double> residue(const Eigen::VectorXd& parameters);
 
 /// The poles in z, the real ones first in rising order.

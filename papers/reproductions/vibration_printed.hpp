@@ -1,4 +1,5 @@
-// What sections 5.4.1 and 5.4.2 of the thesis print (trackers/regulator/self_tuning_regulator.hpp).
+// The printed numbers of sections 5.4.1 and 5.4.2 of the thesis
+// (trackers/regulator/self_tuning_regulator.hpp).
 #pragma once
 
 #include <array>

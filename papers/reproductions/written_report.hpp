@@ -8,7 +8,7 @@ namespace veritrack::reports {
 
 struct WrittenReport {
   std::filesystem::path document;
-  std::string warning;  ///< what its runs are too few for; empty when they are enough
+  std::string warning;  ///< the questions for which its runs are too few; empty when there are none
 };
 
 }  // namespace veritrack::reports

@@ -1,5 +1,4 @@
-// What the slides (trackers/zarchan/zarchan_ekf.hpp) say, in our words, and the experiment that each is
-// about.
+// The statements of the slides (trackers/zarchan/zarchan_ekf.hpp), in our words, each with its experiment.
 #pragma once
 
 #include <array>
@@ -10,13 +9,13 @@
 
 namespace veritrack::reports::printed {
 
-/// What is looked at in a run.
+/// The observed quantity of a run.
 enum class ZarchanLook : std::uint8_t {
   frequency,           ///< the frequency (or its square) is right in the last 5 s
   frequency_fails,     ///< it is not
   amplitude,           ///< the amplitude of filter 1 is right in the last 5 s
   amplitude_fails,     ///< it is not
-  wrong_sign,          ///< the frequency is right but for its sign
+  wrong_sign,          ///< the frequency is right except for its sign
   signal,              ///< x is right in the last 5 s
   derivative,          ///< its derivative is
   after_five_seconds,  ///< the square of the frequency is right from 5 s on

@@ -1,6 +1,6 @@
 // Examples 1 and 2 of S. Bittanti and S. M. Savaresi, IEEE Trans. Automatic Control 45(9), 2000, simulated in
-// double: what the printed text and figures show, and how often each reading of Q shows it too. Simulations
-// prove nothing; there is no certificate here.
+// double: the statements of the printed text and figures, and how often each reading of Q reproduces them.
+// Simulations prove nothing; there is no certificate here.
 //
 // Example 1: cos of a frequency of pi/6 up to t = 300, then rising linearly to 2 pi/3 at t = 700, then
 // constant up to t = 1000; noise variance 0.01; q = 0.005, r = 0.01; epsilon = 0.05 or 0. Example 2: pi/6 up

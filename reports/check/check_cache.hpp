@@ -9,17 +9,17 @@
 
 namespace veritrack::reports {
 
-/// Kept under the SHA-256 of the design's text and of the program: another text or another program knows
-/// nothing of it. Whoever can write in the folder can write verdicts; files of other users, or that others
-/// can write to, are not read.
+/// Kept under the SHA-256 of the design's text and of the program: another text or program does not find it.
+/// Anyone who can write to the folder can write verdicts; files of other users, or that others can write to,
+/// are not read.
 class CheckCache {
  public:
   /// `program` says which program this is, in whatever form; the folder is made when it is needed.
   CheckCache(std::filesystem::path folder, std::string program);
 
-  /// What was kept of a design with this text. What cannot be read, or is no such thing, is nothing.
+  /// The kept result for a design with this text; nothing when there is none or it cannot be read.
   [[nodiscard]] std::optional<CheckedDesign> find(const std::string& design_text) const;
-  /// Keeps what `is_final`. What cannot be written is not kept, and nothing is said of it.
+  /// Keeps results that are `is_final`. One that cannot be written is silently not kept.
   void keep(const std::string& design_text, const CheckedDesign& design) const;
 
  private:
@@ -33,8 +33,8 @@ class CheckCache {
 /// empty when there is none.
 [[nodiscard]] std::filesystem::path default_cache_folder();
 
-/// Which program this is, or the one in the file: its SHA-256, with the version; empty when it cannot be
-/// told.
+/// Which program this is, or the one in the file: its SHA-256, with the version; empty when they cannot be
+/// found.
 [[nodiscard]] std::string program_identity(const std::filesystem::path& file = "/proc/self/exe");
 
 }  // namespace veritrack::reports

@@ -10,8 +10,8 @@ namespace veritrack::reports {
 
 /// JUnit XML: a test suite for each design with the seconds that it took, a test case for each requirement;
 /// REFUTED and UNDECIDED are failures of that type, a design without verdicts is one test case with an error,
-/// or with a failure where it has to require something. What makes `exit_status_of` 1 or 2 is in every
-/// report.
+/// or with a failure where it has to require something. Every report has everything that makes
+/// `exit_status_of` 1 or 2.
 [[nodiscard]] std::string to_junit(const std::vector<CheckedDesign>& designs);
 
 /// SARIF 2.1.0: an error for each requirement that is not PROVED, at its line, and for each design without
@@ -25,7 +25,7 @@ namespace veritrack::reports {
 /// verdicts; empty when all is PROVED.
 [[nodiscard]] std::string to_annotations(const CheckedDesign& design);
 
-/// A path as a URI reference (RFC 3986): what is no unreserved character, nor a slash, is percent-encoded.
+/// A path as a URI reference (RFC 3986): all but unreserved characters and slashes are percent-encoded.
 [[nodiscard]] std::string uri_of(const std::string& path);
 
 }  // namespace veritrack::reports

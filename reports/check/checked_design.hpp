@@ -1,4 +1,4 @@
-// What `veritrack check` found of a design file, small enough to be handed from process to process and kept.
+// The result of `veritrack check` for a design file, small enough to be passed between processes and kept.
 #pragma once
 
 #include <optional>
@@ -33,18 +33,18 @@ struct CheckObjection {
   certificates::Position position;  ///< in the file; line 0 without one
 };
 
-/// What came of a design file, with its path as the user gave it.
+/// The result for a design file, with its path as the user gave it.
 struct CheckedDesign {
   std::string path;
   std::vector<CheckedRequirement> requirements;  ///< none: nothing is required
   std::optional<CheckObjection> objection = {};  ///< then there are no requirements
   double seconds = 0.0;               ///< that it took, or took when it was done; not in every report
   std::optional<bool> verified = {};  ///< by the checker; nothing: it was not asked
-  /// A search ended with the time limit: what is UNDECIDED may be decided without it.
+  /// A search ended at the time limit: an UNDECIDED requirement may be decided without it.
   bool cut_short = false;
 };
 
-/// What came of all that a design requires.
+/// The joint verdict on all requirements of a design.
 enum class CheckOutcome { proved, refuted, undecided, nothing_required, bad };
 [[nodiscard]] CheckOutcome outcome_of(const CheckedDesign& design);
 
@@ -61,8 +61,8 @@ enum class CheckOutcome { proved, refuted, undecided, nothing_required, bad };
 /// The requirements with their verdicts.
 [[nodiscard]] std::vector<CheckedRequirement> requirements_of(const certificates::Certificate& certificate);
 
-/// Notes what the checker says of the certificate: `refusal` is why it does not verify it, in one line, or
-/// empty. What it refuses is UNDECIDED for this reason, whatever the certificate says.
+/// Notes the checker's answer on the certificate: `refusal` is the reason why it does not verify it, in one
+/// line, or empty. A refused requirement is UNDECIDED for this reason, whatever the certificate says.
 void note_verification(CheckedDesign& design, const std::string& refusal);
 
 /// "bad-input", "failure", "time-limit", "not-verified", "nothing-required" or "cannot-write".

@@ -1,4 +1,4 @@
-// Two certificates compared: what is better, what is worse, and what of the design is another.
+// Two certificates compared: better and worse results, and changes of the design.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ struct CertificateChange {
     worse,
     accepted,  ///< worse, and meant
     easier,    ///< a result that is better while the contract asks for less, covers less, or is another one
-    other      ///< of what the engineer chooses, or of a published result
+    other      ///< of an engineer's choice, or of a published result
   };
   Kind kind = Kind::other;
   std::string text;  ///< one line: what, and from what to what
@@ -24,7 +24,8 @@ struct CertificateChange {
 
 struct CertificateChanges {
   std::vector<CertificateChange> list;
-  /// What makes the contract easier, of which `easier` results count as none: "assume.noise covers less".
+  /// The changes that make the contract easier, so that `easier` results do not count: "assume.noise covers
+  /// less".
   std::vector<std::string> loosened;
 
   [[nodiscard]] int count(CertificateChange::Kind kind) const;
@@ -36,16 +37,15 @@ class NothingToAccept : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Throws std::invalid_argument, which says what is wrong, for a text that is no certificate.json.
+/// Throws std::invalid_argument, which names the error, for a text that is not a certificate.json.
 void require_certificate(const std::string& text);
 
 /// From certificate.json to certificate.json. Worse is a requirement that is gone or asks for less, an
-/// assumption that covers less, another tracker, unit or recursion (contract_changes.hpp), a claim that is
-/// PROVED no more, a verdict or a bound that is worse, and a bound that is no longer there, unless its key is
-/// in `accepted`. Bounds whose relative change is at most `tolerance` are the same; contracts are compared
-/// exactly. A value that is known from one side only says itself which way is better. Verifies nothing.
-/// Throws std::invalid_argument for a text that is no certificate, and NothingToAccept. Opens its own
-/// rounding scope.
+/// assumption that covers less, another tracker, unit or recursion (contract_changes.hpp), a claim that is no
+/// longer PROVED, a worse verdict or bound, and a bound that is missing, unless its key is in `accepted`.
+/// Bounds whose relative change is at most `tolerance` are the same; contracts are compared exactly. The side
+/// of a one-sided bound says which way is better. Verifies nothing. Throws std::invalid_argument for a text
+/// that is not a certificate, and NothingToAccept. Opens its own rounding scope.
 [[nodiscard]] CertificateChanges certificate_changes(const std::string& old_text, const std::string& new_text,
                                                      double tolerance,
                                                      std::span<const std::string> accepted = {});

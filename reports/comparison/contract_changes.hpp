@@ -1,4 +1,4 @@
-// Two designs compared as contracts: what is asked and what is assumed, key by key.
+// Two designs compared as contracts: requirements and assumptions, key by key.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,14 +16,14 @@ struct ContractChange {
   };
   Kind kind = Kind::weaker;
   std::string key;   ///< with its table: "assume.noise"
-  std::string what;  ///< became of it: "covers less"; empty for what is chosen
+  std::string what;  ///< the effect: "covers less"; empty for the engineer's choices
   std::string text;  ///< one line: the key, both values, and what became of it
 };
 
-/// The changes from one certificate.json to another, in the order of the keys there. A certificate that is in
-/// the other one, of a regulator's frequency tracker, is compared with it, its keys behind
-/// "design.frequency_tracker.". Throws nlohmann::json::exception for what is no certificate. Needs the upward
-/// rounding mode.
+/// The changes from one certificate.json to another, in the order of the keys there. The certificate of a
+/// regulator's frequency tracker inside another one is compared with it, its keys prefixed with
+/// "design.frequency_tracker.". Throws nlohmann::json::exception for a text that is not a certificate. Needs
+/// the upward rounding mode.
 [[nodiscard]] std::vector<ContractChange> contract_changes(const nlohmann::ordered_json& before,
                                                            const nlohmann::ordered_json& after);
 

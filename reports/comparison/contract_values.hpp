@@ -8,7 +8,7 @@
 
 namespace veritrack::reports {
 
-/// What the second of two values is beside the first. What cannot be told for certain is `incomparable`.
+/// The second of two values compared with the first; `incomparable` when the comparison is not certain.
 enum class Relation { equal, stronger, weaker, incomparable };
 
 /// Numbers in Hz are compared with numbers in rad/sample by the sample rates; with two different sample rates
@@ -17,8 +17,7 @@ enum class Relation { equal, stronger, weaker, incomparable };
 [[nodiscard]] Relation relation_of(const ContractValue& before, const ContractValue& after,
                                    const certificates::KeyContract& contract);
 
-/// The same of two formulas, numbers as a rule, of which the larger one is stronger; null where there is
-/// none.
+/// The same for two formulas, usually numbers, the larger of which is stronger; null where one is missing.
 [[nodiscard]] Relation relation_of_formulas(const std::string* before, const std::string* after);
 
 }  // namespace veritrack::reports

@@ -27,10 +27,10 @@ struct Measured {
 /// The number of a decimal; nothing for other text.
 [[nodiscard]] std::optional<rigor::Interval> decimal_in(std::string_view text);
 
-/// The hexadecimal ends of a number of certificate.json; nothing for what is no such number.
+/// The hexadecimal ends of a number of certificate.json; nothing for anything else.
 [[nodiscard]] std::optional<rigor::Interval> number_in(const nlohmann::ordered_json& json);
 
-/// A number of the value, in all units that its sample rate leads to; nothing for what is no number. Needs
+/// A number of the value, in all units that its sample rate gives; nothing for anything but a number. Needs
 /// the upward rounding mode.
 [[nodiscard]] std::optional<Measured> measured(const nlohmann::ordered_json& json, const ContractValue& value,
                                                certificates::Measure measure);

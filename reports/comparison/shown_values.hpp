@@ -7,9 +7,9 @@
 
 namespace veritrack::reports {
 
-/// The two values as the design files have them, "40 Hz -> 400 Hz", one line; "not given" for what is left
-/// out. Where one of them alone is in Hz, its number in rad/sample stands behind it, rounded outward; of a
-/// text of many lines the first line that differs. Needs the upward rounding mode.
+/// The two values as the design files have them, "40 Hz -> 400 Hz", one line; "not given" for a missing
+/// value. Where only one of them is in Hz, its number in rad/sample follows it, rounded outward; of a text of
+/// many lines the first line that differs. Needs the upward rounding mode.
 [[nodiscard]] std::string shown_values(const ContractValue& before, const ContractValue& after,
                                        certificates::Measure measure);
 

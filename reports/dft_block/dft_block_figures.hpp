@@ -1,4 +1,4 @@
-// The figures of a block tracker's certificate: simulated offset errors below what is proved, and false
+// The figures of a block tracker's certificate: simulated offset errors below the proved bounds, and false
 // locks.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a set has at each frequency, where it has tubes for several parts of the amplitudes.
+// The values of a set at each frequency, where it has tubes for several parts of the amplitudes.
 #pragma once
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 
 namespace veritrack::reports {
 
-/// Up to so many samples have a shade of grey of their own, the darkest one first.
+/// Up to this many samples have their own shade of grey, the darkest one first.
 [[nodiscard]] std::vector<std::size_t> capture_steps(const certificates::ModelMap& map);
 
 /// "theta, rad".

@@ -11,7 +11,7 @@ namespace veritrack::reports::page {
 struct PageFigure {
   std::string path;    ///< as the document has it, e.g. "figures/error.svg"
   std::string svg;     ///< the file
-  std::string values;  ///< of a map, what is under the pointer (map_values.hpp); empty for other figures
+  std::string values;  ///< for a map, the values under the pointer (map_values.hpp); empty for other figures
 };
 
 /// A section, for a list of contents.

@@ -11,8 +11,8 @@
 
 namespace veritrack::reports::page {
 
-/// The tree of a document. HTML in it is none: a tag is text, which a reader sees as it was written. Nor are
-/// there addresses but relative ones and those that begin with https: of others only the words are left.
+/// The tree of a document. HTML has no effect in it: a tag is text, which a reader sees as written. Only
+/// relative addresses and those that begin with https are links; of other links only the words remain.
 class MarkdownTree {
  public:
   explicit MarkdownTree(std::string_view markdown);
@@ -32,25 +32,25 @@ class MarkdownTree {
 /// The children, first to last.
 [[nodiscard]] std::vector<cmark_node*> children_of(cmark_node* node);
 
-/// What a reader sees of the node, without marks: the text of all that is in it.
+/// The visible text of the node and everything in it, without marks.
 [[nodiscard]] std::string plain_text(cmark_node* node);
 
 /// Letters, digits and hyphens, for an id: "What was required" is "what-was-required".
 [[nodiscard]] std::string slug(std::string_view title);
 
-/// What stands in place of a formula: of its LaTeX, and whether it is a line of its own.
+/// The replacement of a formula: from its LaTeX, and whether it is a line of its own.
 using FormulaWriter = std::function<cmark_node*(std::string_view latex, bool is_block)>;
 
-/// Puts what the writer makes of it in the place of each formula below the node: $`...`$, and blocks of the
-/// language `math`.
+/// Replaces each formula below the node by the output of the writer: $`...`$, and blocks of the language
+/// `math`.
 void replace_formulas(cmark_node* root, const FormulaWriter& formula);
 
 /// A node that is written as this HTML, in a line.
 [[nodiscard]] cmark_node* html_node(const std::string& html);
-/// A block that is written as `before`, what is moved into it, and `after`.
+/// A block that is written as `before`, its children, and `after`.
 [[nodiscard]] cmark_node* block_node(const std::string& before, const std::string& after = {});
 
-/// The node takes the place of `old`, which is no more.
+/// The node replaces `old`, which is removed.
 void replace_node(cmark_node* old, cmark_node* node);
 
 /// Moves the children to the end of those of another node.

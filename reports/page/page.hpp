@@ -9,7 +9,7 @@
 
 namespace veritrack::reports::page {
 
-/// What is shown.
+/// The contents.
 struct PageContent {
   std::string markdown;             ///< the document
   std::string file;                 ///< its name, e.g. "certificate.md"

@@ -1,5 +1,4 @@
-// What is written beside a Markdown document when it is asked for: a page, tables for a paper, data of
-// figures.
+// Optional files beside a Markdown document: a page, tables for a paper, data of figures.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +10,7 @@
 
 namespace veritrack::reports::page {
 
-/// What is asked for.
+/// The requested files.
 struct Renderings {
   bool html = false;   ///< one page with everything in it
   bool csv = false;    ///< the data of each figure, beside it
@@ -29,7 +28,7 @@ struct Document {
       {};  ///< the checker's command; empty when it has nothing to do with the document
 };
 
-/// Stages the document, its figures, and what is asked for: <stem>.html, <stem>-tables.tex, and beside each
+/// Stages the document, its figures, and the requested files: <stem>.html, <stem>-tables.tex, and beside each
 /// figure <figure>.csv, <figure>-<table>.csv for further tables of a figure. Throws
 /// certificates::OutputError.
 void stage_document(certificates::OutputFiles& files, const std::filesystem::path& directory,

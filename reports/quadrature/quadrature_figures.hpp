@@ -9,8 +9,8 @@
 namespace veritrack::reports {
 
 /// The tracker's frequency beside the true one, and the error beside the bounds that were certified or
-/// claimed, along the certificate's simulated run; the certified tube; the starts that were followed. None
-/// when there was no run. Not drawn yet.
+/// claimed, along the certificate's simulated run; the certified tube; the followed starts. Empty when there
+/// was no run. Not drawn yet.
 [[nodiscard]] std::vector<Figure> draw_quadrature_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

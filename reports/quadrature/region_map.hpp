@@ -1,5 +1,5 @@
 // The map of a proved region of attraction, as SVG, over (start frequency error, start phase error). It is
-// drawn to be read in grey: proved dark, refuted hatched, undecided light.
+// readable in grey: proved dark, refuted hatched, undecided light.
 #pragma once
 
 #include <string>

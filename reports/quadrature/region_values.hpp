@@ -16,7 +16,7 @@ inline constexpr page::PlotPlace kRegionPlace{0.1, 0.97, 0.27, 0.97};
 inline constexpr std::size_t kRegionWidth = 820;
 inline constexpr std::size_t kRegionHeight = 560;
 
-/// What each cell says, for a page. A sentence is about one cell, and names all its ends.
+/// The sentence of each cell, for a page. A sentence is about one cell, and names all its ends.
 [[nodiscard]] std::string region_values(const quadrature::Region& region,
                                         const quadrature::SimulatedBasin& basin);
 

@@ -24,7 +24,7 @@ struct Extent {
   }
 };
 
-/// What was found in the stretches that could be judged: those in lock and without gaps. All estimates.
+/// The findings in the stretches that could be judged: those in lock and without gaps. All are estimates.
 struct AssumptionFindings {
   std::int64_t judged = 0;        ///< samples
   Extent amplitude;               ///< signal units
@@ -62,7 +62,7 @@ class AssumptionCheck {
   /// The sample `index` in lock, in the units of the design, and the frequency that the tracker estimates
   /// with it, rad/sample.
   void push(std::int64_t index, const RecordedSample& sample, double frequency);
-  /// What follows is not connected with what came before.
+  /// Later samples are not connected with earlier ones.
   void interrupt();
   [[nodiscard]] AssumptionFindings findings() const;
 

@@ -1,5 +1,5 @@
-// What a certificate assumes, one after the other, and whether a recording keeps to it, or why that was not
-// tested.
+// The assumptions of a certificate, one after the other, and whether a recording keeps each, or why that was
+// not tested.
 #pragma once
 
 #include <string>

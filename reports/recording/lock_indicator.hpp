@@ -21,7 +21,7 @@ class LockIndicator {
  public:
   LockIndicator(std::size_t window, int channels, const Waveform& waveform);
 
-  /// Forgets everything: the tracker starts anew.
+  /// Forgets everything: the tracker restarts.
   void clear();
   /// A sample, and the frequency (rad/sample) that is estimated with it.
   void push(const RecordedSample& sample, double frequency);

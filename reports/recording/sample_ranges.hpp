@@ -36,7 +36,7 @@ class SampleRanges {
 
   [[nodiscard]] const std::vector<SampleRange>& kept() const { return ranges_; }
   [[nodiscard]] std::size_t count() const { return count_; }
-  /// All that were added, without the bridges.
+  /// All added samples, without the bridges.
   [[nodiscard]] std::int64_t samples() const { return samples_; }
 
   static constexpr std::size_t kKept = 100;

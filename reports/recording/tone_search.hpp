@@ -13,7 +13,7 @@
 
 namespace veritrack::reports {
 
-/// What a stretch of samples has of the waveform. All estimates.
+/// The waveform's share in a stretch of samples. All are estimates.
 struct FoundTone {
   std::size_t length = 0;  ///< samples that were used
   double frequency = 0.0;  ///< rad/sample

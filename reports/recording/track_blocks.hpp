@@ -1,4 +1,4 @@
-// What a tracker in blocks has seen of its own lock: words, a table, a figure.
+// The lock of a tracker in blocks, by its own monitor: words, a table, a figure.
 #pragma once
 
 #include <string>

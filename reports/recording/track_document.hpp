@@ -1,4 +1,4 @@
-// What a run over a recording has shown, for people: Markdown, answer first.
+// The results of a run over a recording, for people: Markdown, answer first.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace veritrack::reports {
 
-/// A run and what it was made from.
+/// A run and its inputs.
 struct TrackReport {
   const certificates::Design* design = nullptr;
   std::string recording;  ///< the name of the file, without folders, or "standard input"

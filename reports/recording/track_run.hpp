@@ -1,4 +1,4 @@
-// A design's tracker run over a recording, and what is seen of it. Nothing here is proved.
+// A design's tracker run over a recording, and the observations. Nothing here is proved.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace veritrack::reports {
 struct TrackSettings {
   std::int64_t from = 0;                                       ///< the first sample that is used
   std::int64_t to = std::numeric_limits<std::int64_t>::max();  ///< the first one that is not used any more
-  /// What samples are multiplied by; none: so that the tone of the start has the assumed amplitude.
+  /// The factor of the samples; none: the one with which the tone at the start has the assumed amplitude.
   std::optional<double> scale = 1.0;
   std::optional<double> start_frequency;  ///< rad/sample; none: from the recording
 };
@@ -62,7 +62,7 @@ struct TrackResult {
   NisFindings nis;
   Spread frequency;  ///< estimates in lock, rad/sample
   AssumptionFindings assumptions;
-  std::vector<Finding> recording;  ///< what the recording shows by itself
+  std::vector<Finding> recording;  ///< properties of the recording itself
   Spread recorded_frequency;       ///< of its tone, from stretch to stretch, rad/sample
   TrackSeries series;
   std::vector<certificates::TrackedBlock> blocks;  ///< of a tracker in blocks
@@ -85,8 +85,8 @@ inline constexpr std::size_t kShortestStretch = 32;
 using EachSample = std::function<void(const TrackedSample&)>;
 
 /// The source has as many channels as the tracker. Holds round-to-nearest. `each` sees every sample;
-/// `progress` is called now and then with the number of samples. Throws certificates::InputError, and what
-/// the tracker throws.
+/// `progress` is called now and then with the number of samples. Throws certificates::InputError, and the
+/// exceptions of the tracker.
 [[nodiscard]] TrackResult track_recording(SampleSource& source, certificates::TrackerOnSamples& tracker,
                                           const TrackSettings& settings, const EachSample& each,
                                           const std::function<void(std::int64_t)>& progress);

@@ -1,4 +1,4 @@
-// The sentences that answer what a run over a recording is asked.
+// The sentences that answer the questions to a run over a recording.
 #pragma once
 
 #include <string>
@@ -18,11 +18,11 @@ namespace veritrack::reports {
 /// How far the estimate is from the frequency of the fitted tone, with a blank behind it; empty where that is
 /// chance or less than a thousandth.
 [[nodiscard]] std::string bias_sentence(const TrackResult& result, const RecordingUnits& units);
-/// The names of what the recording shows, with a blank behind it; empty when that is nothing.
+/// The names of the findings in the recording, followed by a blank; empty when there are none.
 [[nodiscard]] std::string findings_sentence(const TrackResult& result);
 /// "1", or "0.5 to 2".
 [[nodiscard]] std::string amplitude_words(const certificates::SignalAssumptions& assume);
-/// What else has to be said at once.
+/// Other things that must be said at once.
 [[nodiscard]] std::vector<std::string> report_sentences(const TrackReport& report,
                                                         const RecordingUnits& units);
 

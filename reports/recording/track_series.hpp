@@ -1,4 +1,4 @@
-// A run of any length in a constant number of rows: each stands for one sample, or for a stretch of them.
+// A run of any length in a constant number of rows: each represents one sample, or a stretch of them.
 #pragma once
 
 #include <cstddef>
@@ -55,12 +55,12 @@ struct TrackRow {
   TrackState worst = TrackState::lock;
 };
 
-/// When there are kMostRows rows, neighbours are joined, and a row stands for twice as many samples.
+/// When there are kMostRows rows, neighbours are joined, and a row represents twice as many samples.
 class TrackSeries {
  public:
   void add(const TrackedSample& sample);
   [[nodiscard]] const std::vector<TrackRow>& rows() const { return rows_; }
-  /// How many samples a row stands for; the last one may have fewer.
+  /// How many samples a row represents; the last one may have fewer.
   [[nodiscard]] std::int64_t samples_per_row() const { return per_row_; }
 
   static constexpr std::size_t kMostRows = 8192;

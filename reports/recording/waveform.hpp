@@ -1,4 +1,4 @@
-// The periodic signal that a design assumes, as its harmonics: what a recording's tone is compared with.
+// The periodic signal that a design assumes, as its harmonics, for comparison with a recording's tone.
 #pragma once
 
 #include <complex>

@@ -8,7 +8,7 @@
 
 namespace veritrack::reports {
 
-/// Output over the samples, simulated, and what is proved of it; none where nothing is. Not drawn yet.
+/// Output over the samples, simulated, and its proved bounds; empty where there are none. Not drawn yet.
 [[nodiscard]] std::vector<Figure> draw_regulator_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

@@ -1,4 +1,4 @@
-// The figure of a tuning: what is made best against how fast the tracker is.
+// The figure of a tuning: the objective against the speed of the tracker.
 #pragma once
 
 #include "certificates/document/tuning.hpp"

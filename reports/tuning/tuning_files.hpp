@@ -1,4 +1,4 @@
-// What `veritrack tune` leaves beside the certificate of the tuned design.
+// The files that `veritrack tune` writes beside the certificate of the tuned design.
 #pragma once
 
 #include <filesystem>

@@ -90,7 +90,7 @@ class BlockDft {
 /// factor sum s_m d_m* / sum |d_m|^2 = x1^2 e^{j x2} of (4.36).
 template <typename Scalar>
 struct DftBlockFit {
-  Scalar explained;  ///< what the tone explains of sum |s_m|^2, signal units squared
+  Scalar explained;  ///< the part of sum |s_m|^2 that the tone explains, signal units squared
   DftBin<Scalar> factor;
 };
 

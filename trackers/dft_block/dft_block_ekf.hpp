@@ -5,9 +5,9 @@
 // University, 1994, chapter 4. Equation numbers are the thesis's.
 //
 // The tone is constant within a block of T samples, with the frequency 2 pi (M + delta) / T rad/sample, M a
-// known integer. Measured are the 2L + 1 bins Y_m, m = M - L ... M + L, of the transform (4.4) with the
-// factor 1/T. State (x1, x2, x3): x1 = sqrt(amplitude / (4 pi)), the phase at the start of the block in rad,
-// and the offset delta in bins.
+// known integer. The measurements are the 2L + 1 bins Y_m, m = M - L ... M + L, of the transform (4.4) with
+// the factor 1/T. State (x1, x2, x3): x1 = sqrt(amplitude / (4 pi)), the phase at the start of the block in
+// rad, and the offset delta in bins.
 //     x1' = (1 - epsilon_amplitude) x1,   x2' = x2 + 2 pi x3,   x3' = (1 - epsilon_offset) x3, (4.18) Y_m =
 //     x1^2 e^{j x2} (e^{j 2 pi x3} - 1) / (j d),   d = M - m + x3,                                  (4.9)
 // Q = diag(q1, q2, q3), and R = r I over real and imaginary parts; white noise of variance s gives s / (2T).
@@ -15,8 +15,8 @@
 // With sinc(d) = sin(pi d) / (pi d) the bin is Y_m = 2 pi x1^2 sinc(d) e^{j (x2 + pi d)}, which has no
 // special case at integers, and e^{j pi d} = (-1)^(M - m) e^{j pi x3}. In the frame turned by x2 + pi x3 the
 // Jacobian (4.19)-(4.24) is real or imaginary, so that H'H consists of three sums, of sinc^2, sinc sinc' and
-// sinc'^2: what the bins say is a 3x3 matrix and a vector whatever L is, and no matrix grows with L. L is
-// that of the bins that are handed over. A step does not allocate.
+// sinc'^2: the information of the bins is a 3x3 matrix and a vector, whose sizes do not depend on L. The
+// number of bins passed to a step determines L. A step does not allocate.
 //
 //     using namespace veritrack::trackers;                  // with block_dft.hpp: transform and start
 //     BlockDft<double> transform(2048, 300, 2);
@@ -65,7 +65,7 @@ struct DftBin {
   Scalar imaginary;
 };
 
-/// What the engineer chooses.
+/// The engineer's choices.
 template <typename Scalar>
 struct DftBlockDesign {
   Scalar q1;  ///< process noise variance of x1, signal units; >= 0
@@ -180,7 +180,7 @@ template <typename Bin>
 
 }  // namespace detail
 
-/// What the bins of a block say about the state near an estimate: H' R^-1 H and H' R^-1 (y - h).
+/// The information of a block's bins about the state near an estimate: H' R^-1 H and H' R^-1 (y - h).
 template <typename Scalar>
 struct DftBlockInformation {
   Eigen::Matrix<Scalar, 3, 3> matrix;

@@ -42,10 +42,10 @@ template <std::floating_point Scalar>
   return power;
 }
 
-/// What the last blocks say of the lock.
+/// The state of the lock, judged from the last blocks.
 enum class BlockLockState {
   settling,    ///< fewer blocks than the memory
-  lock,        ///< the estimate explains at least half of what the best offset explains
+  lock,        ///< the estimate explains at least half of the power that the best offset explains
   false_lock,  ///< another offset explains more than twice as much as the estimate
   no_tone      ///< no offset explains clearly more than it would of noise
 };
@@ -55,7 +55,7 @@ enum class BlockLockState {
 template <std::floating_point Scalar = double>
 class BlockLockMonitor {
  public:
-  /// For 2L + 1 bins, L = `half_width` >= 1; `memory` >= 1: over about so many blocks.
+  /// For 2L + 1 bins, L = `half_width` >= 1; `memory` >= 1: over about this many blocks.
   explicit BlockLockMonitor(int half_width, int memory = 20)
       : half_(half_width),
         memory_(memory),
@@ -86,7 +86,7 @@ class BlockLockMonitor {
   }
 
   /// Of the last block, the share of power that the estimate leaves: 0 for a tone without noise in lock,
-  /// about 1 in a false lock, and more where the estimate is worse than none.
+  /// about 1 in a false lock, and more where the estimate is worse than 0.
   [[nodiscard]] Scalar last_share() const { return last_; }
   /// The same over the last blocks; 1 before the first.
   [[nodiscard]] Scalar unexplained_share() const {
@@ -95,13 +95,13 @@ class BlockLockMonitor {
   /// The offset in [-L, L] whose tones, of any amplitude and phase in each block, explain most of the power
   /// of the last blocks, to 1/16 bin: where to start again.
   [[nodiscard]] Scalar best_offset() const { return offset_of(best()); }
-  /// What they explain of it.
+  /// The part of it that they explain.
   [[nodiscard]] Scalar best_share() const {
     return power_ > Scalar(0) ? explained_[best()] / power_ : Scalar(0);
   }
 
-  /// What best_share() has to be for a tone to be there: of white noise one complex number in 2L + 1 is
-  /// explained.
+  /// The least best_share() with which a tone is present: one complex number in 2L + 1 is explained in white
+  /// noise.
   [[nodiscard]] Scalar tone_threshold() const {
     return Scalar(1) / static_cast<Scalar>(2 * half_ + 1) + Scalar(0.25);
   }

@@ -1,8 +1,8 @@
 // An adaptive observer of order seven for a sinusoid with an unknown offset, after M. Hou, "Amplitude and
-// frequency estimator of a sinusoid", IEEE Trans. Automatic Control 50(6), 2005, as section V of L. Praly,
-// L. Marconi and A. Isidori, "A new observer for an unknown harmonic oscillator", prints it. Hou's paper was
-// not at hand and the print is damaged (both filters carry the same name, the constant regressor is missing),
-// so the observer is derived here anew.
+// frequency estimator of a sinusoid", IEEE Trans. Automatic Control 50(6), 2005, as section V of L. Praly, L.
+// Marconi and A. Isidori, "A new observer for an unknown harmonic oscillator", prints it. Hou's paper was not
+// at hand and the print is damaged (both filters carry the same name, the constant regressor is missing), so
+// the observer is derived again here.
 //
 // Derivation. y = s + A sin(w t + p) gives y'' = -w^2 (y - s) and y'^2 = w^2 (A^2 - (y - s)^2), so that v =
 // y^2/2 satisfies
@@ -21,7 +21,7 @@
 
 namespace veritrack::trackers {
 
-/// What the engineer chooses. Assumed, not checked: all positive and 1 + alpha lambda > lambda.
+/// The engineer's choices. Assumed, not checked: all positive and 1 + alpha lambda > lambda.
 struct AdaptiveObserverDesign {
   double lambda;          ///< filter rate, 1/s
   double alpha;           ///< correction

@@ -13,8 +13,8 @@
 // xi into an estimate of x.
 //
 // Everything is a template over the scalar, free of branches on scalar values. It does not allocate, and it
-// never throws unless the scalar does. What double precision adds to the estimates is bounded in
-// docs/rounding.md. Assumed, not checked: lambda positive and distinct, ell >= 0, M >= 4.
+// never throws unless the scalar does. docs/rounding.md bounds the rounding of the estimates in double
+// precision. Assumed, not checked: lambda positive and distinct, ell >= 0, M >= 4.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@
 
 namespace veritrack::trackers {
 
-/// What the engineer chooses.
+/// The engineer's choices.
 template <typename Scalar, int M = 4>
 struct KklObserverDesign {
   Eigen::Matrix<Scalar, M, 1> lambda;  ///< filter rates, 1/s; positive and distinct

@@ -22,7 +22,7 @@ enum class KklResult {
   count
 };
 
-/// What a tracker knows beside its numbers: nothing. Each is left as it is.
+/// A tracker knows nothing beside its numbers: each is left unchanged.
 struct KklNothingKnown {
   template <typename Scalar>
   [[nodiscard]] const Scalar& operator()(KklResult /*which*/, const Scalar& x) const {

@@ -1,4 +1,4 @@
-// An extended Kalman filter by its parts: what a proof needs that bounds the covariance by matrices.
+// An extended Kalman filter by its parts, for a proof that bounds the covariance by matrices.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace veritrack::trackers {
 /// H' R^-1 (y - H x^ - h_0).
 struct FilterParts {
   /// Inputs: constants, x, samples. Results: x^ and then, row by row, F, the innovation y - H x^ - h_0, H, Q
-  /// and R, of which the last three depend on the constants only.
+  /// and R; the last three depend on the constants only.
   StraightLineProgram program{0};
   int states = 0;
   int samples = 0;

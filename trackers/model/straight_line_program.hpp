@@ -1,8 +1,8 @@
 // A calculation as a list of operations, to be run over any scalar.
 //
 // Formulas that a user writes become such a list, once. It is run over double to track, over intervals and
-// ball models to prove, over dual numbers to differentiate: the list is never rewritten, so that what is
-// certified is what runs. An operation that appears twice with the same operands is listed once.
+// ball models to prove, over dual numbers to differentiate: the list is never rewritten, so the certified
+// program is the one that runs. An operation that appears twice with the same operands is listed once.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@
 
 namespace veritrack::trackers {
 
-/// What an instruction does with its operands. `power` has an integer exponent of at least 0. `stays_within`
-/// (x, low, high) is x, and says that low < x < high has to be shown wherever the program is used.
+/// The operation of an instruction. `power` has an integer exponent of at least 0. `stays_within` (x, low,
+/// high) is x, and says that low < x < high has to be shown wherever the program is used.
 enum class Operation {
   add,
   subtract,
@@ -102,8 +102,8 @@ class StraightLineProgram {
  public:
   explicit StraightLineProgram(int inputs) : inputs_(inputs) {}
 
-  /// The register that holds the result of this instruction: of an earlier equal one, if there is one.
-  /// Throws std::invalid_argument when an operand is no register yet or the exponent is negative.
+  /// The register that holds the result of this instruction: of an earlier equal one, if any. Throws
+  /// std::invalid_argument when an operand is no register yet or the exponent is negative.
   int append(const Instruction& instruction) {
     for (const int operand : {instruction.first, instruction.second, instruction.third}) {
       if (operand >= registers() || operand < -1) {

@@ -1,11 +1,11 @@
 // Adaptive notch filters, for a real channel and for a quadrature signal: the gradient descends the mean p-th
-// power of what the notch leaves.
+// power of the notch's output.
 //
 // The filter with which B. F. La Scala and R. R. Bitmead, "Design of an extended Kalman filter frequency
 // tracker", IEEE Trans. Signal Processing 44(3), 1996, Table I, compare theirs is that of S.-C. Pei and C.-C.
 // Tseng, "Adaptive IIR notch filter based on least mean p-power error criterion", IEEE Trans. Circuits and
 // Systems II 40(8), 1993. That paper was not at hand and the parameters of Table I are not printed, so the
-// filters are derived here anew.
+// filters are derived again here.
 //
 // Real: the notch (1 + a q^-1 + q^-2) / (1 + rho a q^-1 + rho^2 q^-2), a = -2 cos(frequency), with
 //     e_k = y_k + a y_{k-1} + y_{k-2} - rho a e_{k-1} - rho^2 e_{k-2},
@@ -26,7 +26,7 @@
 
 namespace veritrack::trackers {
 
-/// What the engineer chooses.
+/// The engineer's choices.
 template <typename Scalar>
 struct NotchDesign {
   Scalar rho;  ///< radius of the poles; in (0, 1), close to 1 is narrow
@@ -42,8 +42,8 @@ class RealNotch {
   RealNotch(const NotchDesign<Scalar>& design, Scalar frequency)
       : design_(design), a_(Scalar(-2) * std::cos(frequency)) {}
 
-  /// One sample, signal units. A correction that would take |a| to 2 or beyond, where there is no frequency,
-  /// is left out.
+  /// One sample, signal units. A correction that would take |a| to 2 or beyond, where no frequency exists, is
+  /// omitted.
   void step(Scalar sample) {
     const Scalar rho = design_.rho;
     const Scalar error = sample + a_ * y1_ + y2_ - rho * a_ * e1_ - rho * rho * e2_;

@@ -24,20 +24,20 @@
 //     }
 //
 // Everything is a template over the scalar, free of branches on scalar values: the code that tracks in double
-// is the code that encloses over intervals and differentiates over dual numbers. What is certified is this
-// step in the coordinates of the errors, quadrature_polar_frame.hpp; a test ties the two as an identity. It
-// does not allocate, and it never throws unless the scalar does.
+// is the code that encloses over intervals and differentiates over dual numbers. The certified map is this
+// step in the coordinates of the errors, quadrature_polar_frame.hpp; a test shows that the two are identical.
+// It does not allocate, and it never throws unless the scalar does.
 //
 // Numerics. The covariance is kept factored (see FactoredCovariance), and both updates are written as sums
 // and quotients of non-negative terms, so that symmetry holds by construction and positive definiteness
 // survives any number of steps and any size of P(0). Expanding the factors gives back (2.4), (2.6) and (2.7);
-// a test holds that against the textbook matrices.
+// a test compares them with the textbook matrices.
 //
-// Rounding. What is certified of this tracker (docs/rounding.md) is certified of `step` in double precision,
-// under these conditions on the program that includes this file: + - * / round to nearest in IEEE 754 double
-// precision, so no -ffast-math and nothing that it contains, no flush-to-zero set at run time, and no excess
-// precision (x87); std::sin and std::cos are within one unit in the last place. Whether products and sums are
-// fused (-ffp-contract) does not matter.
+// Rounding. Certificates of this tracker (docs/rounding.md) are about `step` in double precision, under these
+// conditions on the program that includes this file: + - * / round to nearest in IEEE 754 double precision,
+// so no -ffast-math and nothing that it contains, no flush-to-zero set at run time, and no excess precision
+// (x87); std::sin and std::cos are within one unit in the last place. Whether products and sums are fused
+// (-ffp-contract) does not matter.
 //
 // Assumed, not checked: r > 0, q1 >= 0, q2 > 0, 0 <= epsilon < 1, P(0) symmetric and positive semidefinite,
 // all finite.
@@ -135,7 +135,7 @@ template <typename Scalar>
           {r * gain11, r * gain12, r * gain22, u1, u2, variance}};
 }
 
-/// A prediction and what the measurement made of it.
+/// A prediction and its update by the measurement.
 template <typename Scalar>
 struct QuadratureStep {
   QuadratureEstimate<Scalar> predicted;  ///< (k+1|k)

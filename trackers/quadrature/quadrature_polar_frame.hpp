@@ -9,10 +9,10 @@
 // always the *filtered* estimate and covariance, in the frame of the *estimated* phase at the same time k:
 // the first row of P is the direction of the amplitude, the second that of the phase.
 //
-// What the frame is good for. F(rho) = [[1,0,0], [0,1,rho], [0,0,1-epsilon]], rho = |z|, has one parameter,
-// so that P evolves by a Riccati equation that the errors enter through rho and through a turn by the angle
-// `turn` alone; that equation is monotone in P. For epsilon = 0 the errors a = psi = nu = 0 stay zero
-// whatever P is. And the rows of the state bound amplitude, phase and frequency error directly.
+// Why this frame. F(rho) = [[1,0,0], [0,1,rho], [0,0,1-epsilon]], rho = |z|, has one parameter, so that P
+// evolves by a Riccati equation that the errors enter through rho and through a turn by the angle `turn`
+// alone; that equation is monotone in P. For epsilon = 0 the errors a = psi = nu = 0 stay zero whatever P is.
+// And the rows of the state bound amplitude, phase and frequency error directly.
 //
 // This is the filter of quadrature_ekf.hpp in other coordinates and another order of evaluation. Certificates
 // are about this map; tests tie it to `step` there, by an identity of values and first derivatives on dual
@@ -57,7 +57,7 @@ struct PolarError {
   Scalar frequency;  ///< x3 - omega, rad/sample
 };
 
-/// What drives the closed loop from k to k+1.
+/// The inputs of the closed loop from k to k+1.
 template <typename Scalar>
 struct PolarInput {
   /// The measurement noise v(k+1), turned into the frame of the predicted phase: a plane vector with |v''| =
@@ -104,8 +104,8 @@ template <typename Scalar>
           predicted.p13 * i12 + predicted.p23 * i22};
 }
 
-/// P - K S K': the covariance (k+1|k+1), still in the frame of the predicted phase. K H P, of which this is
-/// the rest, is r K for the columns of z, since K = (P - K S K') H' / r.
+/// P - K S K': the covariance (k+1|k+1), still in the frame of the predicted phase. K H P, the remainder, is
+/// r K for the columns of z, since K = (P - K S K') H' / r.
 template <typename Scalar>
 [[nodiscard]] PolarCovariance<Scalar> filtered_covariance(const PolarCovariance<Scalar>& predicted,
                                                           const PolarGain<Scalar>& k, const Scalar& r) {

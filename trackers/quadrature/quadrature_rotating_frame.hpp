@@ -2,14 +2,14 @@
 //
 // The filter of quadrature_ekf.hpp commutes with rotations of the plane: turn z and y by an angle, and P with
 // them, and the estimates turn too. Let the true signal be s(k) = e^{i phi(k)}, phi(k+1) = phi(k) + omega(k),
-// and write the filter in the frame that turns with phi(k) (rotating_frame.hpp). What remains is a map of
-// nine numbers X. A certificate about this map is a certificate about the tracker; tests tie the two
-// together by an identity of values and first derivatives on dual numbers over intervals
+// and write the filter in the frame that turns with phi(k) (rotating_frame.hpp). The result is a map of nine
+// numbers X. A certificate about this map is a certificate about the tracker; tests tie the two together by
+// an identity of values and first derivatives on dual numbers over intervals
 // (tests/trackers/frame_identity_test.cpp).
 //
 // This is the filter of quadrature_ekf.hpp in other coordinates and in another order of evaluation: there,
-// what keeps its digits in floating point; here, what repeats few variables, so that it stays narrow over
-// boxes and makes sense for any P with det S != 0, definite or not.
+// one that keeps its digits in floating point; here, one that repeats few variables, so that it stays narrow
+// over boxes and makes sense for any P with det S != 0, definite or not.
 #pragma once
 
 #include "trackers/quadrature/quadrature_ekf.hpp"
@@ -18,7 +18,7 @@
 
 namespace veritrack::trackers {
 
-/// What drives X(k) to X(k+1).
+/// The inputs of the step from X(k) to X(k+1).
 template <typename Scalar>
 struct RotatingFrameInput {
   Scalar noise_in_phase;    ///< Re v', v' = e^{-i phi(k+1)} v(k+1); |v'| = |v|

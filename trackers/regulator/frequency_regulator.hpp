@@ -4,9 +4,9 @@
 // replaced by c_k = cos of an estimate, which may change with every sample. With d_k = A_1 v_k = A_1 y_k -
 // B_1 u_{k-1}, known from the data, the law is
 //     B_1 u_k = -(2 c_k d_k - d_{k-1}),   and then   A_1 y_{k+1} = 2 (cos omega - c_k) A_1 v_k
-// exactly (once the memory is full, from k = p + 1 on), whatever c_k is: what a tracker proves of its
-// frequency error is a bound on the output. A test holds both against simulations. With noise n in y, at
-// constant c, y = S n with S = 1 - 2 c q^-1 + q^-2: its variance is multiplied by 2 + 4 c^2.
+// exactly (once the memory is full, from k = p + 1 on), for any c_k: a proved bound on a tracker's frequency
+// error gives a bound on the output. A test compares both with simulations. With noise n in y, at constant c,
+// y = S n with S = 1 - 2 c q^-1 + q^-2: its variance is multiplied by 2 + 4 c^2.
 //
 //     FrequencyRegulator<double, 1> regulator(thesis_example_plant<double>());
 //     u = regulator.step(y, [&](double v) { tracker.step(v); return tracker.filtered().frequency; });

@@ -111,13 +111,13 @@ class MonitoredLeastSquares {
   Scalar limit_;
 };
 
-/// What the engineer chooses for EFRA.
+/// The engineer's choices for EFRA.
 template <typename Scalar>
 struct EfraDesign {
   Scalar alpha;   ///< gain; in (gamma, 1), gamma = (1 - lambda) / lambda
-  Scalar beta;    ///< what is added to P with every sample; > 0
+  Scalar beta;    ///< added to P with every sample; > 0
   Scalar lambda;  ///< forgetting factor; in (0, 1)
-  Scalar delta;   ///< what is taken from P, times P^2; > 0
+  Scalar delta;   ///< subtracted from P, times P^2; > 0
 };
 
 /// alpha = 0.5, beta = 0.005, lambda = 0.95, delta = 0.005, of section 5.4.
@@ -150,8 +150,8 @@ template <typename Scalar>
 
 /// Whether [lower, upper] is certain to be kept. Both fixed-point maps are functions of P, concave in each
 /// eigenvalue: the upper one rises on all of the interval when gamma^2 + 4 beta delta <= 1, and the lower one
-/// stays above `lower` when it does so at the upper end, (1 - alpha) upper >= lower. Derived anew: the thesis
-/// asks for other conditions.
+/// stays above `lower` when it does so at the upper end, (1 - alpha) upper >= lower. Derived here: the thesis
+/// has other conditions.
 template <typename Scalar>
 [[nodiscard]] inline bool efra_keeps_bounds(const EfraDesign<Scalar>& design) {
   const Scalar gamma = (Scalar(1.0) - design.lambda) / design.lambda;

@@ -1,4 +1,4 @@
-// A linear plant whose output a sinusoid disturbs: what the regulators of this folder are for.
+// A linear plant whose output a sinusoid disturbs, for the regulators of this folder.
 //
 // B. F. La Scala, "Approaches to Frequency Tracking and Vibration Control", PhD thesis, Australian National
 // University, 1994, section 5.2. Equation numbers are the thesis's. In samples back,

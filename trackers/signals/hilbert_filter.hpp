@@ -8,8 +8,8 @@
 // becomes A g(w) sin(w k + p) with the gain g(w) = 2 sum of h(n) sin(n w) over n = 1, ..., M, which `gain`
 // evaluates. The result for a sample is known M samples later.
 //
-// Of white noise it makes noise that is white in each channel but not as a pair: the quadrature noise of a
-// sample depends on the in-phase noise of its neighbours.
+// White noise becomes noise that is white in each channel but not as a pair: the quadrature noise of a sample
+// depends on the in-phase noise of its neighbours.
 #pragma once
 
 #include <algorithm>
@@ -40,10 +40,10 @@ class HilbertFilter {
     memory_.assign(2 * length(), 0.0);
   }
 
-  /// M: the result is that of the sample which was pushed so many samples before the last one.
+  /// M: the result belongs to the sample pushed this many samples before the last one.
   [[nodiscard]] int delay() const { return half_length_; }
 
-  /// g at a frequency in rad/sample: what the amplitude of the quadrature part is multiplied by.
+  /// g at a frequency in rad/sample: the factor of the quadrature part's amplitude.
   [[nodiscard]] double gain(double frequency) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < response_.size(); ++i) {

@@ -30,23 +30,23 @@
 //       use(tracker.filtered().frequency);
 //     }
 //
-// A template over the scalar: the code that tracks in double is the code that
-// encloses over intervals and differentiates over dual numbers. What is certified is this step in the frame
-// of the signal, single_channel_rotating_frame.hpp; a test ties the two as an identity. It does not allocate.
-// The one thing that can go wrong in a step is an innovation variance of exactly zero, with which the gain is
-// 0/0: that is ZeroInnovationVariance. It takes r = 0 and a prediction that is certain of x1, such as P(0|0)
-// = 0 with the frequency-only process noise.
+// A template over the scalar: the code that tracks in double is the code that encloses over intervals and
+// differentiates over dual numbers. The certified map is this step in the frame of the signal,
+// single_channel_rotating_frame.hpp; a test shows that the two are identical. It does not allocate. The only
+// failure of a step is an innovation variance of exactly zero, with which the gain is 0/0:
+// ZeroInnovationVariance. It takes r = 0 and a prediction that is certain of x1, such as P(0|0) = 0 with the
+// frequency-only process noise.
 //
 // Numerics. As in the quadrature tracker the covariance is kept factored, and both updates are sums and
 // quotients of non-negative terms: symmetry holds by construction, and the variances keep their sign for r =
-// 0 too, where P(k|k) is singular. Expanding the factors gives back (2); a test holds that against the
-// textbook matrices.
+// 0 too, where P(k|k) is singular. Expanding the factors gives back (2); a test compares it with the textbook
+// matrices.
 //
-// Rounding. What is certified of this tracker (docs/rounding.md) is certified of `step` in double precision,
-// under these conditions on the program that includes this file: + - * / round to nearest in IEEE 754 double
-// precision, so no -ffast-math and nothing that it contains, no flush-to-zero set at run time, and no excess
-// precision (x87); std::sin and std::cos are within one unit in the last place. Whether products and sums are
-// fused (-ffp-contract) does not matter.
+// Rounding. Certificates of this tracker (docs/rounding.md) are about `step` in double precision, under these
+// conditions on the program that includes this file: + - * / round to nearest in IEEE 754 double precision,
+// so no -ffast-math and nothing that it contains, no flush-to-zero set at run time, and no excess precision
+// (x87); std::sin and std::cos are within one unit in the last place. Whether products and sums are fused
+// (-ffp-contract) does not matter.
 //
 // Assumed, not checked: r >= 0, Q and P(0) symmetric and positive semidefinite, 0 <= epsilon < 1, all finite.
 #pragma once
@@ -59,7 +59,7 @@
 
 namespace veritrack::trackers {
 
-/// What the engineer chooses.
+/// The engineer's choices.
 template <typename Scalar>
 struct SingleChannelEkfDesign {
   FactoredCovariance<Scalar> process_noise;  ///< Q
@@ -140,7 +140,7 @@ template <typename Scalar>
   using detail::square;
   const FactoredCovariance<Scalar>& p = predicted.covariance;
   const Scalar& r = design.r;
-  // w is the innovation variance if the frequency were known, s what it is.
+  // w would be the innovation variance if the frequency were known; s is the actual one.
   const Scalar w = not_negative(p.conditional_11) + r;
   const Scalar p11 = p.conditional_11 + p.frequency_variance * square(p.regression_1);
   const Scalar p13 = p.frequency_variance * p.regression_1;
@@ -155,7 +155,7 @@ template <typename Scalar>
       predicted.frequency + p13 * weighted, p};
   const Scalar variance = p.frequency_variance * (w / s);
   if (w == Scalar(0.0)) {
-    // x1 was certain but for the frequency, so that the measurement leaves no doubt of either.
+    // x1 was certain except for the frequency, so the measurement determines both.
     filtered.covariance = {p.conditional_11, p.conditional_12, p.conditional_22,
                            Scalar(0.0),      Scalar(0.0),      variance};
     return filtered;

@@ -16,7 +16,7 @@
 
 namespace veritrack::trackers {
 
-/// What drives X(k) to X(k+1).
+/// The inputs of the step from X(k) to X(k+1).
 template <typename Scalar>
 struct SingleChannelInput {
   Scalar next_phase;  ///< phi(k+1), rad

@@ -11,7 +11,7 @@
 // too, which is exact. The others predict it by `euler_steps` semi-implicit Euler steps of x'' (100 of 0.001
 // s in the slides), and evaluate their matrices at the filtered state.
 //
-// Symmetries, which a test holds as identities: OscillatorEkf with the sign of omega reversed does the same
+// Symmetries, which a test checks as identities: OscillatorEkf with the sign of omega reversed does the same
 // with the sign of omega reversed, and started at omega = 0 it stays there, so that it never estimates a
 // sign. SinePhaseEkf is the same at (-phi, -omega, -A), and at (phi + pi, omega, -A). -y gives -x, -v.
 //
@@ -29,7 +29,7 @@
 
 namespace veritrack::trackers {
 
-/// What all four are given. Units: of the signal, s, rad/s.
+/// The inputs of all four. Units: of the signal, s, rad/s.
 template <typename Scalar>
 struct ZarchanDesign {
   Scalar interval;              ///< TS, s; > 0

@@ -1,10 +1,10 @@
 // Capture: verified propagation of a set of starts until all of it lies in an invariant set.
 //
-// Beyond the certified set nothing is contracting in general, but a computer can follow starts. A box of
-// starts is described by polynomials (Taylor models) in the start errors, so that the exact dependence of the
-// state on the start is followed to high order, and by a zonotope that holds everything else: rounding, the
-// terms beyond, intervals of the design, noise. One step of the closed loop X+ = G(X, d) takes the set
-// {p(s) + e} into
+// Beyond the certified set the step need not contract, but a computer can follow starts. A box of starts is
+// described by polynomials (Taylor models) in the start errors, so that the exact dependence of the state on
+// the start is followed to high order, and by a zonotope that contains the rest: rounding, higher-order
+// terms, intervals of the design, noise. One step of the closed loop X+ = G(X, d) takes the set {p(s) + e}
+// into
 //     {G(p(s), 0) + G_X e + G_d d + what rounding does},
 // the first evaluated with Taylor models, the derivatives enclosed over a box that holds all states concerned
 // (mean value theorem: the segment from (p(s), 0) to (p(s) + e, d) lies in it).

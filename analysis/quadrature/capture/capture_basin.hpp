@@ -1,4 +1,4 @@
-// The basin of attraction by simulation: what the proved region is compared with. It proves nothing.
+// The basin of attraction by simulation, for comparison with the proved region. It proves nothing.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ struct SimulatedBasin {
 [[nodiscard]] SimulatedBasin simulate_basin(const CaptureProblem& problem, const StartBox& starts, int phases,
                                             int frequencies, int samples);
 
-/// What is proved of the simulated basin, by counting the grid points that lock: those in PROVED cells only,
+/// The proved part of the simulated basin, by counting the grid points that lock: those in PROVED cells only,
 /// those that touch a REFUTED cell and no undecided one, and the rest. Cells of all amplitude errors count.
 struct BasinShares {
   double proved = 0.0;

@@ -1,4 +1,4 @@
-// What the cells of starts that were followed add up to: bounds over time, quantities and conditions.
+// The result of all followed cells of starts together: bounds over time, quantities and conditions.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace veritrack::quadrature {
 
 /// The bounds of all cells while they are followed, and those of the set from each cell's capture on.
 struct CaptureTube {
-  /// On |frequency error|, rad/sample, after 0, 1, ... samples; the last one holds for ever after.
+  /// On |frequency error|, rad/sample, after 0, 1, ... samples; the last one is valid for ever after.
   std::vector<double> frequency_errors;
   double ultimate_frequency_error = 0.0;  ///< of the set that captures
   std::optional<int> settling_samples;
@@ -26,7 +26,7 @@ struct CaptureTube {
 [[nodiscard]] CaptureTube capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
                                        const Region& region);
 
-/// What the cells prove of the starts, but for the conditions. Needs the upward mode.
+/// The claims that the cells prove about the starts, without the conditions. Needs the upward mode.
 [[nodiscard]] sets::StartResult capture_result(rigor::Verdict verdict_on_starts,
                                                const CertifiedSet& set_of_capture, const Region& region,
                                                const CaptureTube& tube);

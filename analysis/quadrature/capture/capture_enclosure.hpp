@@ -18,8 +18,8 @@ using StateMatrix = rigor::IntervalMatrix<kStateSize>;
 /// about zero. Needs the upward mode. NaN and infinite entries stay, and show in radii().
 class Zonotope {
  public:
-  /// Many, because each reduction wraps a box around what it drops: with a third of this the wrapping alone
-  /// grows the set tenfold in forty samples.
+  /// Many, because each reduction encloses the dropped generators in a box: with a third of this the wrapping
+  /// alone grows the set tenfold in forty samples.
   static constexpr Eigen::Index kMostGenerators = 135;
   using Generators =
       Eigen::Matrix<double, kStateSize, Eigen::Dynamic, Eigen::ColMajor, kStateSize, kMostGenerators>;
@@ -42,7 +42,7 @@ class Zonotope {
   void transform(const StateMatrix& matrix);
 
  private:
-  /// Makes room for so many more generators, at most nine, by a box around the smallest ones.
+  /// Makes room for this many more generators, at most nine, by a box around the smallest ones.
   void reduce(Eigen::Index room);
   Generators generators_;
 };

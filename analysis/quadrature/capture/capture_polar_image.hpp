@@ -5,7 +5,7 @@
 
 namespace veritrack::quadrature {
 
-/// What all states of an enclosure have in common; not finite when it could not be found out.
+/// Bounds common to all states of an enclosure; not finite when they could not be found.
 struct PolarImage {
   rigor::Interval norm;                 ///< |T (e - origin)|
   rigor::IntervalMatrix<3> covariance;  ///< in the frame of the estimated phase

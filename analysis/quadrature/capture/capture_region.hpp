@@ -23,8 +23,8 @@ struct RegionOptions {
 /// The start in the middle of the box.
 [[nodiscard]] StartBox middle(const StartBox& box);
 
-/// A cell of starts. PROVED: all of them are captured. REFUTED: none of them is, they lock elsewhere (or, in
-/// a cell that is not halved any further, at least the middle does: `whole` is then false).
+/// A cell of starts. PROVED: all of them are captured. REFUTED: they all lock elsewhere (or, in a cell that
+/// is not halved any further, at least the middle does: `whole` is then false).
 struct RegionCell {
   StartBox starts;
   rigor::Verdict verdict = rigor::Verdict::undecided;
@@ -44,7 +44,7 @@ struct Region {
   std::size_t unfinished = 0;
 };
 
-/// What has been done so far, in terms of the volume of the box of starts (approximate, for display).
+/// The progress, as a share of the volume of the box of starts (approximate, for display).
 struct RegionProgress {
   double proved_share = 0.0;
   double refuted_share = 0.0;
@@ -52,10 +52,11 @@ struct RegionProgress {
   std::size_t propagations = 0;
 };
 
-/// Cuts the box of starts until each cell is decided or the options forbid to go on. Runs on the threads that
-/// oneTBB offers; the result depends neither on their number nor on their order. `progress`, when there is
-/// one, is called now and then from the calling thread, and stops the work by returning false: what is open
-/// stays undecided. Throws std::invalid_argument unless the box is finite and the numbers are positive.
+/// Cuts the box of starts until each cell is decided or a limit of the options is reached. Runs on the
+/// threads that oneTBB offers; the result depends neither on their number nor on their order. `progress`,
+/// when there is one, is called now and then from the calling thread, and stops the work by returning false:
+/// open cells stay undecided. Throws std::invalid_argument unless the box is finite and the numbers are
+/// positive.
 [[nodiscard]] Region prove_region(const CaptureProblem& problem, const CaptureTarget& target,
                                   const StartBox& starts, const RegionOptions& options,
                                   const std::function<bool(const RegionProgress&)>& progress = {});

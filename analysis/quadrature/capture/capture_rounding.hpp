@@ -1,4 +1,4 @@
-// What the rounding of the program adds to a step of starts that are followed (docs/rounding.md).
+// The effect of the program's rounding on a step of followed starts (docs/rounding.md).
 #pragma once
 
 #include "analysis/quadrature/capture/capture.hpp"

@@ -21,14 +21,14 @@ namespace veritrack::quadrature {
 /// (with_start_covariance). Nothing when there are none. Needs the upward mode.
 [[nodiscard]] std::optional<CaptureProblem> capture_problem(const sets::ContractionQuestion& asked);
 
-/// What is proved of the starts.
+/// The proved claims about the starts.
 struct StartCapture {
   /// The quantities of `result`, cells and cells_captured; conditions certified-set, starts-captured.
   theorems::Derivation derivation;
   sets::StartResult result;
   Region region;  ///< the cells of starts; none when nothing was followed
   /// Upper bounds on |frequency error| (rad/sample) after 0, 1, ... samples, for every assumed start and all
-  /// noise and slew; the last one holds for ever after. Empty unless PROVED.
+  /// noise and slew; the last one is valid for ever after. Empty unless PROVED.
   std::vector<double> frequency_tube;
 };
 

@@ -1,4 +1,4 @@
-// What a set of starts must reach to count as captured.
+// The target that a set of starts must reach to count as captured.
 #pragma once
 
 #include <optional>
@@ -31,8 +31,8 @@ class CaptureTarget {
   [[nodiscard]] virtual std::optional<Settled> settled(const StateEnclosure& states) const = 0;
 };
 
-/// The certified set of the polar frame. The shift by 2 pi k is looked for only when `periodic`, which holds
-/// for epsilon = 0: the frequency error then acts through its sine and cosine alone.
+/// The certified set of the polar frame. A shift by 2 pi k is tried only when `periodic`, which is true for
+/// epsilon = 0: the frequency error then acts through its sine and cosine alone.
 class CertifiedSetTarget final : public CaptureTarget {
  public:
   CertifiedSetTarget(const CertifiedSet& set, bool periodic) : set_(set), periodic_(periodic) {}

@@ -7,7 +7,7 @@
 
 namespace veritrack::quadrature {
 
-/// Up to kMost cells, a column each: boxes of (s, beta, along, across), and what is proposed for them. Plain
+/// Up to kMost cells, a column each: boxes of (s, beta, along, across), and the proposals for them. Plain
 /// arrays, which units for different processors share.
 struct CellBatch {
   static constexpr int kMost = 8;
@@ -24,10 +24,9 @@ struct CellBatch {
   double tangent_squared[kMost];             ///< of CellForms; 0 where tau is NOLINT
 };
 
-/// What the look at them found.
+/// The result of examining them.
 struct CellAnswers {
-  /// True only when the inequality holds everywhere in the cell, and its step is one that
-  /// Correction describes.
+  /// True only when the inequality is true everywhere in the cell, and Correction describes its step.
   bool holds[CellBatch::kMost];                        // NOLINT
   double influence[kCellVariables][CellBatch::kMost];  ///< as CellVerdict NOLINT
 };

@@ -1,6 +1,7 @@
 // A batch of cells in registers of some width: part of cell_batch.hpp. Each unit that includes this one is
 // compiled for one set of instructions, and calls it with its own number of lanes; all types that depend on
-// the set bear that number, so that no function of such a unit stands in for one of another.
+// the set have that number as a parameter, so that the linker cannot replace a function of one unit by that
+// of another.
 #pragma once
 
 #include <array>

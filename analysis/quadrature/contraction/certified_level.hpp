@@ -26,7 +26,7 @@ class CertifiedLevel {
   [[nodiscard]] bool above(const CertifiedLevel& other) const {
     return certainly_less_equal(other.level_, level_);
   }
-  /// |frequency error| is at most that from now on, certainly; rad/sample.
+  /// A certain bound on |frequency error| from now on, rad/sample.
   [[nodiscard]] bool settled(double frequency_error) const {
     return largest_frequency_error() <= frequency_error;
   }

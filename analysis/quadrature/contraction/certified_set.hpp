@@ -24,8 +24,8 @@ struct CertifiedSet {
   double rate = 1.0;                  ///< kappa, an upper bound
   double noise_gain = 0.0;            ///< L_v; without meaning when there is no noise
   double slew_gain = 0.0;             ///< L_w; without meaning when there is no slew
-  /// What the rounding of the program may add to |T e| in a step, and to P as a share of P_lo, up or down in
-  /// the Loewner order (docs/rounding.md).
+  /// Bounds on what rounding adds to |T e| in a step, and to P as a share of P_lo, up or down in the Loewner
+  /// order (docs/rounding.md).
   double error_rounding = 0.0;
   double covariance_rounding = 0.0;
 };
@@ -49,7 +49,7 @@ struct CertifiedSet {
 [[nodiscard]] rigor::Interval next_level(const CertifiedSet& set, const rigor::Interval& level,
                                          const rigor::Interval& noise, const rigor::Interval& slew);
 
-/// What |T e(k)| tends to at most, for such noise and slew: the u that is its own next_level. Needs the
+/// A bound on the limit of |T e(k)|, for such noise and slew: the fixed point u of next_level. Needs the
 /// upward mode.
 [[nodiscard]] rigor::Interval ultimate_level(const CertifiedSet& set, const rigor::Interval& noise,
                                              const rigor::Interval& slew);

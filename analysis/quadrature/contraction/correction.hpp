@@ -1,5 +1,5 @@
-// What a measurement update does to the estimate of the quadrature tracker, the covariance being anywhere
-// between two bounds: the correction under the mean gain, and how far from it the correction can be.
+// The effect of a measurement update on the quadrature tracker's estimate, for any covariance between two
+// bounds: the correction under the mean gain, and how far from it the correction can be.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct BlockMetric {
   Scalar amplitude, phase, coupling, frequency;
 };
 
-/// What the steps of a whole set have in common.
+/// The data common to all steps of a set.
 template <typename Scalar>
 struct StepSetting {
   trackers::ToneModel<Scalar> design;  ///< epsilon = 0
@@ -30,7 +30,7 @@ struct StepSetting {
   Scalar noise;              ///< V
 };
 
-/// What the mean correction does to the estimate, in the frame of the true phase.
+/// The effect of the mean correction on the estimate, in the frame of the true phase.
 template <typename Scalar>
 struct MeanCorrection {
   Scalar sine, cosine;              ///< of chi
@@ -95,7 +95,7 @@ struct Correction {
   Constant turn_tangent;          ///< bound on |tan| of the turn of the estimate
 };
 
-/// What errors look like before a correction: all that does not depend on the covariance.
+/// The errors before a correction: all quantities that do not depend on the covariance.
 template <typename Scalar>
 struct ErrorGeometry {
   Scalar amplitude;                 ///< a

@@ -9,7 +9,7 @@
 
 namespace veritrack::quadrature {
 
-/// What the cells that cover a set say together.
+/// The joint result of the cells that cover a set.
 struct ContractionOverSet {
   bool proved = false;
   std::string reason;      ///< one sentence when not proved
@@ -26,9 +26,9 @@ struct ContractionOverSet {
 [[nodiscard]] trackers::InstructionSet instructions_for_cells();
 
 /// Covers the projection {(a/A)^2 + (chi/C)^2 <= 1, chi >= 0} of the ellipsoid by cells in (s, beta),
-/// bisected until the inequality holds in each. Half of the ellipse is enough: the step commutes with the
-/// mirror image (psi, nu, P12, P13, v2, w) -> -(psi, nu, P12, P13, v2, w), which maps the set to itself.
-/// The result does not depend on the set of instructions. Needs the upward mode; throws std::invalid_argument
+/// bisected until the inequality is proved in each. Half of the ellipse is enough: the step commutes with the
+/// mirror image (psi, nu, P12, P13, v2, w) -> -(psi, nu, P12, P13, v2, w), which maps the set to itself. The
+/// result does not depend on the set of instructions. Needs the upward mode; throws std::invalid_argument
 /// where this processor lacks the instructions.
 [[nodiscard]] ContractionOverSet prove_contraction(const StepSetting<rigor::Interval>& setting,
                                                    const StepConstants<rigor::Interval>& constants,

@@ -1,4 +1,5 @@
-// What the gain may be while the covariance stays between two bounds: its mean, and how far it strays.
+// The range of the gain while the covariance stays between two bounds: its mean, and the largest deviation
+// from it.
 #pragma once
 
 #include "analysis/quadrature/contraction/riccati_order.hpp"

@@ -1,4 +1,4 @@
-// One step of the errors, around a ray from zero, as quadratic forms: what decides whether it contracts.
+// One step of the errors, around a ray from zero, as quadratic forms, which decide whether it contracts.
 //
 // The errors e = (a, psi, nu) enter a step through a, the phase error chi = psi + nu of the prediction, and
 // nu itself, which is merely carried along (epsilon = 0). With A and C the largest |a| and |chi| of the set,
@@ -10,7 +10,7 @@
 //     e+ = c_x x + c_y y + nu (0, 0, 1)' + J (K_mean v + D z / r) - w (0, 0, 1)',
 //     |z|^2 <= Delta11 (i1 + v1)^2 + Delta22 (i2 + v2)^2,  i = i_x x + i_y y.
 // Here i is the innovation without noise, c the step under the mean gain K_mean = (K_lo + K_hi)/2, and z is
-// what the covariance may do: P+ = Phi lies between Phi_lo and Phi_hi (riccati_order.hpp), that is Phi =
+// the effect of the covariance: P+ = Phi lies between Phi_lo and Phi_hi (riccati_order.hpp), that is Phi =
 // (Phi_lo + Phi_hi)/2 + D Y D' with D D' = Delta = (Phi_hi - Phi_lo)/2 and |Y|_2 <= 1, so that the gain K =
 // Phi H'/r moves the correction K (i + v) by D z / r, z = Y D' H' (i + v). J is the Jacobian of (|z|, arg z,
 // x3), averaged between the estimate that the mean gain corrects without noise and the actual one.

@@ -22,9 +22,8 @@ class Promises {
   [[nodiscard]] const rigor::Interval& ultimate_frequency_error() const { return ultimate_; }
   /// A bound on |frequency error| at every sample, rad/sample. Empty when there is none.
   [[nodiscard]] rigor::Interval frequency_error_bound() const;
-  /// A frequency error (rad/sample), and a number of samples after which it is not exceeded: the one that is
-  /// to count as settled, or, where none is asked for or no set gives a number for it, twice the ultimate
-  /// one.
+  /// A frequency error (rad/sample), and a number of samples after which it is not exceeded: the required
+  /// settled error, or twice the ultimate one where none is required or no set gives a number for it.
   struct Settling {
     rigor::Interval frequency_error, samples;
   };

@@ -13,8 +13,8 @@
 
 namespace veritrack::quadrature {
 
-/// What the set is chosen for. The first three are about any start; the others about a given one, which lies
-/// in the set.
+/// The purpose of the set. The first three do not depend on the start; the others are for a given start,
+/// which lies in the set.
 enum class Objective {
   start_error,      ///< the largest frequency error, for the given noise and slew
   noise,            ///< the largest noise that the set tolerates, without slew
@@ -25,7 +25,7 @@ enum class Objective {
   requirement       ///< all that `required` asks, with room
 };
 
-/// What is asked of a proposal. The design has epsilon = 0 and belongs to amplitude 1.
+/// The request for a proposal. The design has epsilon = 0 and belongs to amplitude 1.
 struct ProposalRequest {
   trackers::ToneModel<double> design;
   Objective objective = Objective::start_error;
@@ -57,14 +57,14 @@ struct SufficientShape {
   double fraction = 0.0;
 };
 
-/// For Objective::requirement: shapes of which sampling says that a set does all that is required, the one
-/// found first and the best; none when the search finds none. Deterministic.
+/// For Objective::requirement: shapes for which samples of a set meet all requirements: the one found first
+/// and the best; none when the search finds none. Deterministic.
 [[nodiscard]] std::vector<SufficientShape> propose_sufficient_shapes(const ProposalRequest& request);
 
 /// A set of this shape at `fraction` of its objective, 0 < fraction <= 1, with as much room for the
-/// verification as noise and slew leave; nothing when sampling finds that none is there. For objectives about
-/// a given start the set keeps its size, and the fraction is that of the contraction, 1 - rate^2, which is
-/// claimed.
+/// verification as noise and slew leave; nothing when sampling finds that no such set exists. For objectives
+/// about a given start the set keeps its size, and the fraction is that of the contraction, 1 - rate^2, which
+/// is claimed.
 [[nodiscard]] std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Shape& shape,
                                                       double fraction);
 

@@ -11,7 +11,7 @@
 
 namespace veritrack::quadrature {
 
-/// What was found. Each set is the best on a ladder of proposals that verified; it is evidence that
+/// The result. Each set is the best on a ladder of proposals that verified; it is evidence that
 /// verify_certified_set can check again without a search.
 struct ContractionCertificate {
   /// id "contraction"; the quantities of `result`: rate and radii are those of `set`, what is said of the
@@ -30,8 +30,8 @@ struct ContractionCertificate {
   std::optional<Verification> settling_set;  ///< the fastest to come within twice that
 };
 
-/// Proposes, verifies and reports. Never throws for odd numbers: what is not finite proves nothing. Opens its
-/// own UpwardRounding scope.
+/// Proposes, verifies and reports. Never throws for invalid numbers: a number that is not finite proves
+/// nothing. Opens its own UpwardRounding scope.
 [[nodiscard]] ContractionCertificate certify_contraction(const sets::ContractionQuestion& asked);
 
 }  // namespace veritrack::quadrature

@@ -8,7 +8,7 @@
 
 namespace veritrack::quadrature {
 
-/// What sampling finds of the set {|T e| <= radius} with covariance bounds to match.
+/// The sampled properties of the set {|T e| <= radius}, with matching covariance bounds.
 struct SampledSet {
   StepSetting<double> setting;  ///< with the covariance bounds found
   /// The least rate^2 with which the samples satisfy the inequality of step_inequality.hpp; infinity when
@@ -23,8 +23,8 @@ struct SampleRequest {
   double radius = 0.0;
   double noise = 0.0;  ///< relative to the amplitude
   StepConstants<double> constants;
-  /// By how much the covariance bounds are moved out beyond what is needed, in units of the steady state:
-  /// room for a proof.
+  /// The margin of the covariance bounds beyond the necessary ones, in units of the steady state: room for a
+  /// proof.
   double covariance_margin = 0.02;
   std::optional<CovarianceRange> start_covariance;  ///< to be held by the bounds as well
   double useless_rate_squared = 1.0;                ///< from here on it does not matter how large it is

@@ -20,8 +20,8 @@ namespace veritrack::quadrature {
 /// when none is found, or nothing is required.
 [[nodiscard]] std::optional<Verification> find_sufficient_set(const sets::ContractionQuestion& question);
 
-/// `noisy`, which tolerates the assumed noise without slew, as a set for the assumed noise and slew: what the
-/// noise leaves is given to the slew. Nothing when it does not verify.
+/// `noisy`, which tolerates the assumed noise without slew, as a set for the assumed noise and slew: the
+/// margin that the noise leaves goes to the slew. Nothing when it does not verify.
 [[nodiscard]] std::optional<Verification> with_slew(const sets::ContractionQuestion& question,
                                                     const CertifiedSet& noisy);
 

@@ -41,7 +41,7 @@ class ShapeSearch {
 
   [[nodiscard]] SampledSet sample(const Shape& shape, double radius, double noise) const;
 
-  /// What noise and slew add to |T e|^2 in a step.
+  /// The contribution of noise and slew to |T e|^2 in a step.
   [[nodiscard]] double pushed(const Shape& shape) const;
 
   /// The largest radius that tolerates noise and slew, 0 if there is none: growth by steps, then bisection.
@@ -59,11 +59,11 @@ class ShapeSearch {
 
   [[nodiscard]] std::optional<Promise> promise(const Shape& shape) const;
 
-  /// What a set claims at most, over what is required, when it claims this part of its contraction: the worst
-  /// ratio. Below 1 where it does all that is required.
+  /// The worst ratio of a set's claim to the requirement, when it claims this part of its contraction. Below
+  /// 1 where the set meets all requirements.
   [[nodiscard]] double shortfall(const Shape& shape, const Promise& promise, double part) const;
 
-  /// What is to be maximised among the sets about a start.
+  /// The objective among the sets around a start, to be maximised.
   [[nodiscard]] double worth(const Shape& shape) const;
 
  private:

@@ -30,7 +30,7 @@ class StartBounds {
   /// The largest |T e(0)| that is assumed.
   [[nodiscard]] const rigor::Interval& start_level() const { return start_level_; }
 
-  /// What |frequency error| tends to at most, from anywhere in the set, rad/sample.
+  /// A bound on the limit of |frequency error|, from anywhere in the set, rad/sample.
   [[nodiscard]] rigor::Interval ultimate_frequency_error() const;
   /// A bound on |frequency error| at every sample, rad/sample; from the assumed starts if the set contains
   /// them, from anywhere in the set if not.

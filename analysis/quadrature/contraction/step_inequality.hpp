@@ -170,10 +170,10 @@ struct CellForms {
       tangent_squared;  ///< of the largest angle to the axis, an upper bound; infinite when it is not acute
 };
 
-/// What the look at a cell found.
+/// The result of examining a cell.
 struct CellVerdict {
-  bool holds = false;  ///< true only when the inequality holds everywhere in the cell
-  /// What each variable contributes to the spread of the matrix, for the choice of where to bisect.
+  bool holds = false;  ///< true only when the inequality is true everywhere in the cell
+  /// The contribution of each variable to the spread of the matrix, to choose where to bisect.
   std::array<double, kCellVariables> influence{};
 };
 

@@ -1,5 +1,5 @@
-// What the form of a step needs of its scalar: a double, an interval, or an interval with derivatives; of
-// intervals, one or several side by side.
+// Requirements of the form of a step on its scalar: a double, an interval, or an interval with derivatives;
+// of intervals, one or several side by side.
 #pragma once
 
 #include <cmath>

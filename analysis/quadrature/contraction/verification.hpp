@@ -11,11 +11,11 @@
 
 namespace veritrack::quadrature {
 
-/// What verify_certified_set found.
+/// The result of verify_certified_set.
 struct Verification {
   rigor::Verdict verdict =
       rigor::Verdict::undecided;  ///< proved or undecided: a failed search refutes nothing
-  std::string reason;             ///< one sentence: what is proved, or which step failed
+  std::string reason;             ///< one sentence: the proved claim, or the step that failed
   CertifiedSet set;               ///< the proposal, with what rounding may add
   std::int64_t cells = 0;         ///< examined
 };

@@ -22,7 +22,7 @@ struct DriftPoint {
 [[nodiscard]] double drift_excess(const LockSet& set, const trackers::ToneModel<double>& design,
                                   const DriftPoint& point);
 
-/// What ascent found.
+/// The result of the ascent.
 struct DriftAttack {
   double closest = 0.0;  ///< the largest excess; below 0 for a PROVED set
   DriftPoint point;

@@ -21,7 +21,7 @@ struct FalsifierOptions {
   std::uint64_t seed = 20261121;
 };
 
-/// A start and what is done to the tracker from there: all that is needed to repeat the run.
+/// A start, and all inputs of the tracker from there: enough to repeat the run.
 struct Attack {
   std::string structure;  ///< constant, alternating, resonant, turning, greedy, gradient; + search
   Eigen::Vector3d start_error = Eigen::Vector3d::Zero();       ///< amplitude, phase, frequency
@@ -31,7 +31,7 @@ struct Attack {
   std::vector<Eigen::Vector3d> inputs;
 };
 
-/// The largest frequency error that was found after the start, beside what is certified.
+/// The largest frequency error found after the start, beside the certified bound.
 struct WorstCase {
   Attack attack;
   double frequency_error = 0.0;  ///< its absolute value, rad/sample
@@ -48,12 +48,12 @@ struct Alarm {
   int step = 0;
 };
 
-/// What was found.
+/// The result.
 struct Falsification {
   WorstCase from_rim;          ///< starts |T e| = R; the bound is that of the set, R |e3' T^-1|
   WorstCase from_zero;         ///< starts e = 0; the bound is the ultimate one, u |e3' T^-1|
   double largest_level = 0.0;  ///< the largest |T e| / R after the start
-  std::optional<Alarm> alarm;  ///< the first; none is what a PROVED set must give
+  std::optional<Alarm> alarm;  ///< the first; a PROVED set must give none
   std::int64_t runs = 0;
 };
 

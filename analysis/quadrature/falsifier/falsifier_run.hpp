@@ -43,8 +43,8 @@ class SetClaim {
   [[nodiscard]] Eigen::Matrix3d covariance_at(const Eigen::Matrix3d& share, bool at_center = false) const;
   /// The share Y, 0 <= Y <= I, for which <Lambda, covariance_at(Y)> is largest.
   [[nodiscard]] Eigen::Matrix3d share_along(const Eigen::Matrix3d& lambda) const;
-  /// What a step contradicts, with the numbers; nothing when all is as it should be. `input` is (noise along,
-  /// noise across, slew).
+  /// The claim that a step contradicts, with the numbers; nothing when it contradicts none. `input` is (noise
+  /// along, noise across, slew).
   [[nodiscard]] std::optional<std::string> broken_by(const PolarState& before, const Eigen::Vector3d& input,
                                                      const PolarState& after) const;
 
@@ -74,7 +74,7 @@ class SetClaim {
 /// (noise along, noise across, slew) of step k, from the state at k.
 using InputPolicy = std::function<Eigen::Vector3d(int k, const PolarState& state)>;
 
-/// What a run came to.
+/// The outcome of a run.
 struct RunOutcome {
   Attack attack;  ///< with the inputs that were used
   double frequency_error = 0.0;
@@ -84,14 +84,14 @@ struct RunOutcome {
   std::vector<PolarState> states;  ///< k = 0 to the end
 };
 
-/// Runs QuadratureEkf<double> for `steps` steps beside a signal of amplitude 1 and holds every step against
-/// the claim; ends early with an alarm. A start with an amplitude error of -1 or less, which no estimate
-/// has, gives an empty outcome. Needs round to nearest.
+/// Runs QuadratureEkf<double> for `steps` steps beside a signal of amplitude 1 and compares every step with
+/// the claim; ends early with an alarm. A start with an amplitude error of -1 or less, which no estimate has,
+/// gives an empty outcome. Needs round to nearest.
 [[nodiscard]] RunOutcome run_tracker(const SetClaim& claim, const Attack& start, const InputPolicy& policy,
                                      int steps);
 
-/// As try_to_break of falsifier.hpp, where the centre takes the place of zero. With a leak the structure of
-/// what is certified is that of SteadySet: each step maps into the next level.
+/// As try_to_break of falsifier.hpp, where the centre takes the place of zero. With a leak the certified set
+/// is a SteadySet: each step maps into the next level.
 [[nodiscard]] Falsification try_to_break(const SetClaim& claim, const FalsifierOptions& options = {});
 
 }  // namespace veritrack::quadrature

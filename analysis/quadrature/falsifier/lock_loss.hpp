@@ -1,4 +1,4 @@
-// How often the tracker loses lock in simulation: what a certified probability is to be compared with. Proves
+// How often the tracker loses lock in simulation, for comparison with a certified probability. Proves
 // nothing.
 #pragma once
 
@@ -34,8 +34,8 @@ struct LockLoss {
 /// Simulates the tracker in the frame of the true phase, amplitude 1, constant frequency or one that walks by
 /// `frequency_walk` (rad/sample) a sample, in Gaussian noise of ever higher signal-to-noise ratio, until lock
 /// is hardly ever lost. It is lost when the frequency error exceeds pi/2 rad/sample or the phase error 2 pi;
-/// the run then begins anew, from the steady state. The law is fitted to the ratios where that is rare but
-/// still happens, by least squares, weighted by the numbers of losses: beyond them it is an extrapolation.
+/// the run then restarts from the steady state. The law is fitted to the ratios at which losses are rare but
+/// still occur, by least squares, weighted by the numbers of losses: beyond them it is an extrapolation.
 /// Without a steady state there are no rates. Deterministic, some seconds of one core, shared among threads.
 /// Opens its own NearestRounding scopes. epsilon must be zero.
 [[nodiscard]] LockLoss simulate_lock_loss(const trackers::ToneModel<double>& design, double frequency_walk);

@@ -6,9 +6,9 @@
 namespace veritrack::quadrature {
 
 /// Appends, marked as not proved: frequency_error_radius_sampled_limit (rad/sample, see
-/// sampled_radius_limit), frequency_error_radius_share_of_limit, and what the falsifier reached of the two
-/// bounds, frequency_error_bound_tightness and ultimate_frequency_error_tightness. The certificate must have
-/// a `set`. Needs the upward mode.
+/// sampled_radius_limit), frequency_error_radius_share_of_limit, and the share of the two bounds that the
+/// falsifier reached, frequency_error_bound_tightness and ultimate_frequency_error_tightness. The certificate
+/// must have a `set`. Needs the upward mode.
 void add_sampled_quantities(const sets::ContractionQuestion& question,
                             const ContractionCertificate& certificate, theorems::Derivation& derivation);
 

@@ -1,4 +1,4 @@
-// How the numbers are reported that the falsifier finds: names and words, whatever the set.
+// Names and words for the numbers that the falsifier finds, the same for every kind of set.
 #pragma once
 
 #include "analysis/theorems/derivation.hpp"

@@ -1,5 +1,5 @@
-// Attacks on what is promised of the assumed starts, with the plain tracker: does a start covariance of the
-// promised range, with start errors, noise and slew within their limits, exceed the bound? Proves nothing.
+// Attacks on the claims about the assumed starts, with the plain tracker: does a start covariance of the
+// claimed range, with start errors, noise and slew within their limits, exceed the bound? Proves nothing.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct StartAttackOptions {
   std::uint64_t seed = 20261121;
 };
 
-/// What was found.
+/// The result.
 struct StartAttack {
   double frequency_error = 0.0;  ///< the largest absolute value after the start, rad/sample
   double at_start = 0.0;         ///< the largest of a start

@@ -1,4 +1,5 @@
-// Is the matrix of drift_form.hpp positive definite over a cell, with what the noise's determinant takes?
+// Is the matrix of drift_form.hpp positive definite over a cell, less the logarithm of the noise's
+// determinant?
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Does the expected value of W = exp(level) shrink, but for the drift, wherever the level is at most L?
+// Does the expected value of W = exp(level) shrink, up to the drift, wherever the level is at most L?
 #pragma once
 
 #include "analysis/quadrature/gaussian/level_cell.hpp"

@@ -9,7 +9,7 @@
 
 namespace veritrack::quadrature {
 
-/// What the step does to small changes of the steady state at a constant frequency, errors and covariance
+/// The effect of the step on small changes of the steady state at a constant frequency, errors and covariance
 /// together: x+ = J x + B v, x = (Re delta, Im delta, nu, P11, P12, P13, P22, P23, P33).
 struct LeakingFilter {
   LockCentre steady;

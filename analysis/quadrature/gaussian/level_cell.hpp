@@ -1,4 +1,4 @@
-// Cells of (T e, s), what a step does over one, and a level of the images there.
+// Cells of (T e, s), the step over a cell, and a level of the images there.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ struct LevelCell {
   std::array<double, 4> low, high;
 };
 
-/// What the look at a cell found.
+/// The result of examining a cell.
 struct CellDrift {
-  bool holds = false;  ///< true only when the inequality holds wherever in the cell the level is at most L
-  /// What each variable contributes to the spread, for the choice of where to bisect.
+  bool holds = false;  ///< true only when the inequality is true wherever in the cell the level is at most L
+  /// The contribution of each variable to the spread, to choose where to bisect.
   std::array<double, 4> influence{};
 };
 

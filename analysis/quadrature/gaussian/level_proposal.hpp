@@ -14,8 +14,8 @@ struct LevelSlope {
   double with_level = 0.0;        ///< s
 };
 
-/// The least t with Psi_hi <= hi(t) and Psi_lo >= lo(t), and what it does to first order: `derivatives` are
-/// those of the images along u. NaN when the images are not definite.
+/// The least t with Psi_hi <= hi(t) and Psi_lo >= lo(t), and its first-order change: `derivatives` are those
+/// of the images along u. NaN when the images are not definite.
 [[nodiscard]] LevelSlope propose_level(const LockSetting<double>& setting, const LevelStep<double>& step,
                                        const std::array<LevelStep<double>, 3>& derivatives);
 

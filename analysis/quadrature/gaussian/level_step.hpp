@@ -1,5 +1,4 @@
-// What a step does to an estimate whose covariance is known up to a level: the pieces of the drift
-// inequality.
+// One step of an estimate whose covariance is known up to a level: the pieces of the drift inequality.
 //
 // By Lemma 1 of docs/contraction.md a covariance of level s or less is mapped between the images Psi_lo,
 // Psi_hi of lo(s) and hi(s), all in the frame of the true phase. The estimate's mean m and the noise's gain K
@@ -38,7 +37,7 @@ struct LockSetting {
   Scalar frequency = Scalar(0.0);
   Scalar leak_reach = Scalar(0.0);
   std::array<Scalar, 3> bias{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
-  /// What the next error is less in the form: T (e+ - offset).
+  /// Subtracted from the next error in the form: T (e+ - offset).
   std::array<Scalar, 3> offset{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
 };
 
@@ -92,7 +91,7 @@ template <typename Constant, typename Scalar>
   return {u[0] / t.amplitude, (u[1] - frequency * t.coupling) / t.phase, frequency};
 }
 
-/// What a step makes of one covariance: its image, how that moves with the covariance, and m.
+/// The image of one covariance under a step, its derivative by the covariance, and m.
 template <typename Scalar>
 struct LevelImage {
   SymmetricMatrix<Scalar> covariance, slope;
@@ -215,7 +214,7 @@ template <typename Constant, typename Scalar>
   LevelStep<Scalar> step;
   step.lower = covariance_image(setting.design, low, lower_slope(low, setting.spread_below), e);
   step.upper = covariance_image(setting.design, upper_covariance(setting, s), setting.spread_above, e);
-  // What the leak takes from the frequency; and the errors are differences from e_0.
+  // The leak's pull on the frequency; the errors are differences from e_0.
   const Constant taken = setting.design.epsilon * setting.frequency;
   for (LevelImage<Scalar>* image : {&step.lower, &step.upper}) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -9,7 +9,7 @@
 
 namespace veritrack::quadrature {
 
-/// What the linearised filter does to the errors x = (e2, nu) of phase (rad) and frequency (rad/sample) of a
+/// The linearised filter's step of the errors x = (e2, nu) of phase (rad) and frequency (rad/sample) of a
 /// signal of amplitude 1 in its steady state: x+ = A x + K v - w e2, without a leak.
 struct LinearFilter {
   Eigen::Matrix2d errors;  ///< A

@@ -13,11 +13,11 @@ struct LockAnswer {
   std::optional<MeanSquareCertificate> mean_square;  ///< where it was asked for
 };
 
-/// Of sets for the question the first that do all that is required (`probability`, `required_rms`): those for
-/// its own noise, and those for more, whose starts lie nearer to the middle. A set for more noise is one for
-/// less, so that what is proved at a lower signal-to-noise ratio is proved at a higher one; the ratios that
-/// are tried, and with a leak the borders of the pieces, do not depend on the question. Where none does all,
-/// the sets for its own noise. Deterministic. Sets its own rounding mode.
+/// The first sets that meet all requirements of the question (`probability`, `required_rms`): sets for its
+/// own noise are tried, then sets for more, in which the starts lie nearer to the middle. A set for more
+/// noise is also one for less, so a proof at a lower signal-to-noise ratio is valid at a higher one; the
+/// ratios that are tried, and with a leak the borders of the pieces, do not depend on the question. Where no
+/// sets meet all requirements, the sets for its own noise. Deterministic. Sets its own rounding mode.
 [[nodiscard]] LockAnswer answer_lock(const LockQuestion& question, bool with_mean_square);
 
 }  // namespace veritrack::quadrature

@@ -11,7 +11,7 @@
 
 namespace veritrack::quadrature {
 
-/// What was found for a band.
+/// The result for a band.
 struct LockBand {
   /// Proved sets whose frequencies adjoin and cover the band that is needed, from its lowest on; empty when
   /// there are none.

@@ -13,7 +13,7 @@
 
 namespace veritrack::quadrature {
 
-/// What is asked, for a signal of amplitude 1.
+/// The question, for a signal of amplitude 1.
 struct LockQuestion {
   trackers::ToneModel<rigor::Interval> design;
   rigor::Interval noise_deviation;  ///< sigma of each channel, relative to the amplitude
@@ -36,7 +36,7 @@ struct LockCertificate {
   /// When everything is proved of them: one set, or with a leak one for each piece of the band of
   /// frequencies.
   std::vector<LockSet> sets;
-  /// Without a leak: what the search found, proved or not.
+  /// Without a leak: the result of the search, proved or not.
   std::optional<LockProposal> proposal;
   std::int64_t cells = 0;
   /// Multiples of the start covariance for which the result holds; those of the question, or more.
@@ -46,8 +46,8 @@ struct LockCertificate {
 /// Searches and verifies. Sets its own rounding mode.
 [[nodiscard]] LockCertificate certify_lock(const LockQuestion& question);
 
-/// The same with a search for what is requested: for more noise, or more frequencies, than the question's. A
-/// set for more is one for less. Sets its own rounding mode.
+/// The same with a search for the request: for more noise, or more frequencies, than the question's. A set
+/// for more is also one for less. Sets its own rounding mode.
 [[nodiscard]] LockCertificate certify_lock(const LockQuestion& question, const LockRequest& request);
 
 /// The same without a search, without a leak: for this proposal, with as many cells in each part
@@ -63,8 +63,7 @@ struct LockCertificate {
 /// The level that the assumed starts may have for a probability that hardly depends on them.
 inline constexpr double kUsualStartLevel = 8.0;
 
-/// What is asked of a proposal that is to answer the question, with starts up to that level. Needs the upward
-/// mode.
+/// The request for a proposal that answers the question, with starts up to that level. Needs the upward mode.
 [[nodiscard]] LockRequest proposal_request(const LockQuestion& question,
                                            double start_level = kUsualStartLevel);
 

@@ -20,7 +20,8 @@ using CellLook = std::function<CellDrift(const LevelCell&)>;
 struct CoverLimits {
   std::int64_t cells_in_part = 0;  ///< at most, in each of the parts that are looked at by themselves
   std::int64_t cells = std::numeric_limits<std::int64_t>::max();  ///< at most, together
-  /// More than 1: only one in so many parts, which proves nothing and says how long a proof may take.
+  /// If above 1, only one of this many parts is examined, which proves nothing but estimates the length of a
+  /// proof.
   std::size_t every = 1;
 };
 

@@ -1,4 +1,4 @@
-// Is what a step in double precision adds to the exact step within the room that the drift inequality leaves?
+// Is the rounding of a step in double precision within the room that the drift inequality leaves?
 #pragma once
 
 #include "analysis/quadrature/gaussian/lock_set.hpp"
@@ -6,8 +6,8 @@
 
 namespace veritrack::quadrature {
 
-/// What the program may add to the errors and the covariance after the exact step, for every state of the set
-/// and noise of at most `kMostDeviations` deviations a channel.
+/// Bounds on what the program adds to the errors and the covariance after the exact step, for every state of
+/// the set and noise of at most `kMostDeviations` deviations a channel.
 struct LockRounding {
   double error = 0.0;       ///< |T rho|
   double covariance = 0.0;  ///< mu: -mu P <= dP <= mu P for every P at or above lo of the largest level

@@ -13,7 +13,7 @@ namespace veritrack::quadrature {
 /// noise levels look alike.
 using LockShape = std::array<double, 13>;
 
-/// What is asked of a proposal, for a signal of amplitude 1.
+/// The request for a proposal, for a signal of amplitude 1.
 struct LockRequest {
   trackers::ToneModel<double> design;  ///< 0 <= epsilon < 1
   double noise_deviation = 0.0;        ///< of each channel, relative to the amplitude
@@ -27,18 +27,18 @@ struct LockRequest {
   double lowest_frequency = 0.0, highest_frequency = 0.0;
 };
 
-/// A proposal, and by how much the drift inequality holds at the sampled points of the set:
-/// DriftInequality::margin_at, the least of them.
+/// A proposal, and its margin in the drift inequality at the sampled points of the set: the least
+/// DriftInequality::margin_at.
 struct LockProposal {
   LockSet set;
   double margin = 0.0;
   LockShape shape{};
 };
 
-/// The set with the largest margin that was found: over all its thirteen shape parameters, points at which
-/// the inequality is worst being added on the way. Where the usual shapes do not do, the shape is followed
-/// from a usual design to this one, with little noise. Nothing when there is no steady state (q1 = 0).
-/// Deterministic; needs the upward mode.
+/// The set with the largest margin found over all thirteen shape parameters; points at which the inequality
+/// is worst are added on the way. Where the usual shapes fail, the shape is followed from a usual design to
+/// this one, with little noise. Nothing when there is no steady state (q1 = 0). Deterministic; needs the
+/// upward mode.
 [[nodiscard]] std::optional<LockProposal> propose_lock_set(const LockRequest& request);
 
 }  // namespace veritrack::quadrature

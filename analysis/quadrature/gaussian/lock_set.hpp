@@ -38,7 +38,7 @@ struct LockSet {
   double lowest_frequency = 0.0, highest_frequency = 0.0;
 };
 
-/// eta of docs/gaussian.md, section 7: what the inequality has left for rounding.
+/// eta of docs/gaussian.md, section 7: the room of the inequality for rounding.
 inline constexpr double kRoundingRoom = 0x1p-14;
 
 /// As a 3x3 matrix.

@@ -14,7 +14,7 @@ namespace veritrack::quadrature {
 /// In each of the parts of a set that are looked at by themselves.
 inline constexpr std::int64_t kMostLockCells = 60'000;
 
-/// What verify_lock_set found.
+/// The result of verify_lock_set.
 struct LockVerification {
   rigor::Verdict verdict = rigor::Verdict::undecided;  ///< proved or undecided
   std::string reason;                                  ///< one sentence
@@ -29,8 +29,8 @@ struct LockVerification {
                                                const LockSet& proposal,
                                                std::int64_t most_cells = kMostLockCells);
 
-/// Does verify_lock_set need about so many cells at most, judging by one in `every` of the parts of the set?
-/// No when the proposal is out of range. Opens its own UpwardRounding scopes.
+/// Does verify_lock_set need at most about this many cells, judging by one in `every` of the parts of the
+/// set? No when the proposal is out of range. Opens its own UpwardRounding scopes.
 [[nodiscard]] bool expects_cells(const trackers::ToneModel<rigor::Interval>& design, const LockSet& proposal,
                                  std::size_t every, std::int64_t most_cells);
 

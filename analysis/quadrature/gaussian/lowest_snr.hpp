@@ -18,15 +18,16 @@ struct LowestSnr {
 
 /// Looks for the most noise for which a set has a chance of being proved, by bisection of the margin at
 /// sampled points in steps of a quarter of a decibel, and proves one for that noise or, if it cannot, for
-/// little less: for which about so many cells suffice, half a minute of one core. Samples, starts, walk and
-/// probability are the question's, its noise is not: `at_its_noise`, a proposal for that, only helps the
-/// search. Deterministic. Sets its own rounding mode. Throws std::invalid_argument for a design with a leak.
+/// little less: for noise for which about this many cells suffice, half a minute of one core. Samples,
+/// starts, walk and probability are the question's, its noise is not: `at_its_noise`, a proposal for that,
+/// only helps the search. Deterministic. Sets its own rounding mode. Throws std::invalid_argument for a
+/// design with a leak.
 [[nodiscard]] LowestSnr certify_lowest_snr(const LockQuestion& question,
                                            const std::optional<LockProposal>& at_its_noise,
                                            std::int64_t affordable_cells = 600'000);
 
-/// A little more than the deviation at a ratio of so many quarters of a decibel: the ratios that are looked
-/// at, whatever is assumed.
+/// A little more than the deviation at a ratio of this many quarters of a decibel: the tried ratios, which do
+/// not depend on the assumptions.
 [[nodiscard]] double deviation_at(int quarters);
 
 /// The signal-to-noise ratio in dB of a deviation in each channel, at amplitude 1: -10 log10(2 sigma^2).

@@ -15,7 +15,7 @@ inline constexpr const char* kRmsWithoutStart = "rms_frequency_error_without_sta
 struct MeanSquareCertificate {
   /// "mean-square": the conditions, and what follows from them.
   theorems::Derivation derivation;
-  /// One for each set of the LockCertificate when everything is proved of them; else none.
+  /// One for each set of the LockCertificate when all are proved; otherwise empty.
   std::vector<LockMeanSquare> mean_squares;
   std::int64_t cells = 0;
 };

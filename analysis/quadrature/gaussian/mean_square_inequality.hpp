@@ -5,7 +5,7 @@
 
 namespace veritrack::quadrature {
 
-/// What bounds the mean square for a LockSet: with U = |R (e - f)|^2 + g s(P)^2 + beta W,
+/// The bound on the mean square for a LockSet: with U = |R (e - f)|^2 + g s(P)^2 + beta W,
 ///     E[U(k+1) | k] <= U(k) + h (c - nu(k)^2)
 /// everywhere in the set, nu being the whole frequency error: docs/gaussian.md, section 14. All numbers are
 /// exact doubles.

@@ -8,8 +8,8 @@
 
 namespace veritrack::quadrature {
 
-/// The form with the least bound that was found, points of the set that need the most being added on the way;
-/// its bound is what the sampled points need. Nothing when the linearised filter does not settle.
+/// The form with the least bound found; points of the set that need the most are added on the way. Its bound
+/// is the one that the sampled points need. Nothing when the linearised filter does not settle.
 /// Deterministic; needs the upward mode.
 [[nodiscard]] std::optional<LockMeanSquare> propose_mean_square(const trackers::ToneModel<double>& design,
                                                                 const LockSet& set);

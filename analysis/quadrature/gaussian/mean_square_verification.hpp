@@ -16,7 +16,7 @@ namespace veritrack::quadrature {
                                                   const LockSet& set, const LockMeanSquare& proposal,
                                                   std::int64_t most_cells = kMostLockCells);
 
-/// Does verify_mean_square need about so many cells at most, judging by one in `every` of the parts of the
+/// Does verify_mean_square need at most about this many cells, judging by one in `every` of the parts of the
 /// set? No when the proposal is out of range. Opens its own UpwardRounding scopes.
 [[nodiscard]] bool expects_cells(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
                                  const LockMeanSquare& proposal, std::size_t every, std::int64_t most_cells);

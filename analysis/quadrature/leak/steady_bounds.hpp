@@ -1,4 +1,4 @@
-// What the spread of the gain and the noise add to the smooth part of a step (steady_step.hpp).
+// The contribution of gain spread and noise to a step, beside its smooth part (steady_step.hpp).
 #pragma once
 
 #include <cmath>
@@ -37,12 +37,12 @@ inline rigor::Interval balance(const rigor::Interval& a, const rigor::Interval& 
 
 /// The gain is K + s D Y D' H' / r, |Y| <= 1, with the mean gain K. So y = Y D' H' (i + v), |y| <= eta + m
 /// |v| with m^2 the largest eigenvalue of the spread of the plane, and (a + b)^2 <= (1 + theta) a^2 + (1 +
-/// 1/theta) b^2 for every theta > 0. What a step leaves of z lies within `radius` of the mean one, z_bar =
-/// rho* + s shift, on which the Jacobian J of (|z|, arg z) depends: its rows are the radial unit vector,
-/// which turns by at most 1/|z| per unit, and the transverse one over |z|, which changes by 1/|z|^2. The
-/// spread of the gain and the noise share one segment, from z_bar to the z that the step leaves, and one
-/// averaged J multiplies both. Averaged over that segment, J is J(z_bar) + E with rows of E up to half of
-/// that times `radius`, and E multiplies what leads from z_bar to z: no more than `radius`, too.
+/// 1/theta) b^2 for every theta > 0. The corrected z lies within `radius` of the mean one, z_bar = rho* + s
+/// shift, on which the Jacobian J of (|z|, arg z) depends: its rows are the radial unit vector, which turns
+/// by at most 1/|z| per unit, and the transverse one over |z|, which changes by 1/|z|^2. The spread of the
+/// gain and the noise share one segment, from z_bar to the z that the step leaves, and one averaged J
+/// multiplies both. Averaged over that segment, J is J(z_bar) + E with rows of E up to half of that times
+/// `radius`, and E multiplies what leads from z_bar to z: no more than `radius`, too.
 template <typename Scalar>
 [[nodiscard]] SteadyBounds<Scalar> steady_bounds(const SteadyStep<Scalar>& step,
                                                  const SteadySetting<Scalar>& setting, const Scalar& level,

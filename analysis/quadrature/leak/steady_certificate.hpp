@@ -9,7 +9,7 @@
 
 namespace veritrack::quadrature {
 
-/// What is asked, at amplitude 1.
+/// The question, at amplitude 1.
 struct LeakQuestion {
   sets::ContractionQuestion
       tracker;  ///< design, noise, slew and start, by default from near the steady state at the middle
@@ -24,8 +24,8 @@ struct LeakCertificate {
   std::optional<SteadyVerification> set;  ///< PROVED, or the last attempt
 };
 
-/// Proposes, verifies and reports. Never throws for odd numbers: what is not finite proves nothing. Opens its
-/// own UpwardRounding scope.
+/// Proposes, verifies and reports. Never throws for invalid numbers: a number that is not finite proves
+/// nothing. Opens its own UpwardRounding scope.
 [[nodiscard]] LeakCertificate certify_with_leak(const LeakQuestion& asked);
 
 }  // namespace veritrack::quadrature

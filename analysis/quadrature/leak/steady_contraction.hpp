@@ -10,14 +10,14 @@
 
 namespace veritrack::quadrature {
 
-/// What the cells that cover a level say together.
+/// The joint result of the cells that cover a level.
 struct SteadyContraction {
   bool proved = false;
   std::string reason;      ///< one sentence when not proved
   std::int64_t cells = 0;  ///< examined
 };
 
-/// What acts on the tracker.
+/// The disturbances of the tracker.
 struct SteadyDisturbance {
   rigor::Interval noise;  ///< |v| <= noise
   /// Upper bounds on how far slew and rounding carry e+ - e*, in the metric, and P+ - P*, as a share of its
@@ -33,10 +33,10 @@ class SteadyDivision {
 
   SteadyDivision() : nodes_(1) {}
 
-  /// Is the cell to be cut without another look at it? Where it failed a little higher, and where its parts
-  /// were cut, too.
+  /// Is the cell to be cut without being examined again? Yes where it failed at a slightly higher level, or
+  /// where its parts were cut, too.
   [[nodiscard]] bool skips(std::size_t node, double level) const;
-  /// The cell holds: it needs no parts.
+  /// The cell is proved: it needs no parts.
   void close(std::size_t node) { nodes_[node].first = 0; }
   /// The cell fails at this level: it gets parts, cut across this side, if it has none.
   void open(std::size_t node, double level, std::size_t side);
@@ -53,7 +53,7 @@ class SteadyDivision {
   std::vector<Node> nodes_;
 };
 
-/// Covers all states of this level s by cells in (x, y), bisected until every step of theirs leads to the
+/// Covers all states of this level s by cells in (x, y), bisected until every step from them maps into the
 /// level `next` = kappa s: |T (e+ - e*)| <= kappa s and -kappa s below <= P+ - P* <= kappa s above, kappa <=
 /// 1. For the covariance it is enough to look at the images of the two bounds: P <= P* + s above implies
 /// Phi(P, rho) <= Phi(P* + s above, rho), as the Riccati step is monotone for positive definite covariances

@@ -1,4 +1,4 @@
-// What the covariance may do around its steady state, as divided differences of the Riccati step.
+// Deviations of the covariance from its steady state, as divided differences of the Riccati step.
 //
 // All in one frame: that of the steady state's estimated phase after the step, into which the prediction is
 // turned by the angle nu* (the steady turn of the estimate is -nu*, which is what keeps the phase error
@@ -63,7 +63,7 @@ template <typename Scalar>
           r22 * l22 - r21 * l.k12, r23 - r21 * l.k31 - r22 * l.k32, r33 - r31 * l.k31 - r32 * l.k32};
 }
 
-/// What the filtered covariance may be at a level s and an amplitude rho* + s alpha: between P* + s low and
+/// The range of the filtered covariance at a level s and an amplitude rho* + s alpha: between P* + s low and
 /// P* + s high in the Loewner order.
 template <typename Scalar>
 struct CovarianceImage {

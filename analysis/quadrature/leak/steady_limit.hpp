@@ -23,7 +23,7 @@ struct SteadyLimit {
 /// Raises `size` (the noise, the slew or the radius of the request, the others stay as they are) from a small
 /// value as far as a shape can be found that allows it: first for the last of the request's steady states,
 /// then for all of them. Each round searches for the shape with the least rate at the present size, and then
-/// raises the size as far as this shape maps level 1 into `target` < 1: what is left is for the proof. The
+/// raises the size as far as this shape maps level 1 into `target` < 1: the rest is room for the proof. The
 /// same from each of `harder`, limits for higher frequencies; the largest is returned. Deterministic; nothing
 /// when no shape is found at all.
 [[nodiscard]] std::optional<SteadyLimit> propose_steady_limit(const SteadyRequest& request,

@@ -15,8 +15,8 @@ struct SteadyMotion {
   rigor::Interval covariance = rigor::Interval(0.0);
 };
 
-/// What the slew of the set does between neighbouring samples, uniform over the branch, since a step may lead
-/// from one cell to another; nothing when it could not be enclosed. Needs the upward mode.
+/// The motion of the steady state by the slew of the set in one sample, uniform over the branch, since a step
+/// may pass from one cell to another; nothing when it could not be enclosed. Needs the upward mode.
 [[nodiscard]] std::optional<SteadyMotion> steady_motion(const trackers::ToneModel<rigor::Interval>& design,
                                                         const std::vector<sets::QuadratureTube>& branch,
                                                         const SteadySet& set);

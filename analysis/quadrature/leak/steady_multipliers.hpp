@@ -12,7 +12,7 @@ struct SteadyCellReach {
   SteadyReach reach;                   ///< at the middle; hidden_squared does not matter
   Eigen::Matrix<double, 3, 2> slopes;  ///< of the image in x and y
   Eigen::Vector2d middle;              ///< of (x, y)
-  double size_squared;                 ///< |(x, y) - middle|^2 is at most that
+  double size_squared;                 ///< bound on |(x, y) - middle|^2
 };
 
 /// The least rate that one set of multipliers certifies for all of the cell, and these, moved to where a

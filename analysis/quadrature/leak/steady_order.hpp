@@ -8,7 +8,7 @@
 
 namespace veritrack::quadrature {
 
-/// What is known of the covariances after the steps of a cell.
+/// Bounds on the covariances after the steps of a cell.
 struct SteadyOrder {
   bool kept = false;
   bool hopeless = false;  ///< not even at the middle: smaller cells will not help

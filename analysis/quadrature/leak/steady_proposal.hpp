@@ -10,7 +10,7 @@
 
 namespace veritrack::quadrature {
 
-/// What is asked of a proposal; amplitude 1.
+/// The request for a proposal; amplitude 1.
 struct SteadyRequest {
   trackers::ToneModel<double> design;
   /// The steady states that the set is fitted to, in the order of their frequencies.
@@ -42,7 +42,7 @@ struct SteadyShape {
                                                               SteadyJudgement judgement);
 
 /// A set of this shape, smaller by `fraction`, with covariance bounds and rates that leave room for the
-/// verification; nothing when sampling finds that none is there.
+/// verification; nothing when sampling finds that no such set exists.
 [[nodiscard]] std::optional<SteadySet> propose_steady_set(const SteadyRequest& request,
                                                           const SteadyShape& shape, double fraction,
                                                           SteadyJudgement judgement);

@@ -23,7 +23,7 @@ struct SteadyRate {
   SteadyMultipliers multipliers;
 };
 
-/// What decides about the rate of a step: the lengths of image + t hidden + B y + N v with t^2 <=
+/// The data that decide the rate of a step: the lengths of image + t hidden + B y + N v with t^2 <=
 /// hidden_squared, |y|^2 <= eta_squared, |v|^2 <= noise_squared.
 struct SteadyReach {
   std::array<double, 3> image, hidden;

@@ -1,4 +1,4 @@
-// What a verified set around the steady state says in engineering units, and of the assumed starts.
+// The claims of a verified set around the steady state, in engineering units and about the assumed starts.
 #pragma once
 
 #include <cstddef>

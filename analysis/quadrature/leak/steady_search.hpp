@@ -10,7 +10,7 @@
 
 namespace veritrack::quadrature {
 
-/// What was found for a question.
+/// The result for a question.
 struct SteadySearch {
   bool shaped = false;                    ///< sampling found a shape to try at all
   std::optional<SteadyVerification> set;  ///< PROVED for the assumed noise and slew, or the last attempt

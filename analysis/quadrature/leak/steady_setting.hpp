@@ -1,4 +1,4 @@
-// What the steps of a set around the steady state have in common, over different scalars.
+// The data common to all steps of a set around the steady state, over different scalars.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ template <typename Scalar>
   return d;
 }
 
-/// What the steps of a whole set have in common.
+/// The data common to all steps of a set.
 template <typename Scalar>
 struct SteadySetting {
   trackers::ToneModel<Scalar> design;

@@ -11,19 +11,19 @@
 
 namespace veritrack::quadrature {
 
-/// What is known of the starts at the frequencies of a cell.
+/// Bounds on the starts at the frequencies of a cell.
 struct SteadyStart {
   /// An upper bound on the least level s such that Omega_s holds the starts, possibly above 1; nothing when
   /// the covariance is not certainly between the bounds of level 1.
   std::optional<double> level;
   bool reached = false;             ///< all starts come into Omega_1
-  int samples = 0;                  ///< after at most so many samples
+  int samples = 0;                  ///< after at most this many samples
   double level_when_reached = 0.0;  ///< an upper bound
   double frequency_error = 0.0;     ///< upper bound on |frequency error| until then, rad/sample
   std::string failure;              ///< where they are not known to, as a part of a sentence
 };
 
-/// What holds for all of them. Throws std::invalid_argument when there are none.
+/// The bounds that are valid for all of them. Throws std::invalid_argument when there are none.
 [[nodiscard]] SteadyStart joined(const std::vector<SteadyStart>& starts);
 
 /// Starts are relative to the true signal: the errors of the question around it, with the question's start

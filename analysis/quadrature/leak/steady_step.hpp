@@ -29,7 +29,7 @@ struct SteadyPlace {
   Scalar x, y;   ///< of SteadyDirections, x^2 + y^2 <= 1
 };
 
-/// T hidden: what a unit of t, the part of the error that (alpha, c) do not see, leaves.
+/// T hidden: the effect of a unit of t, the part of the error that does not enter (alpha, c).
 template <typename Scalar>
 [[nodiscard]] std::array<Scalar, 3> hidden_image(const SteadySetting<Scalar>& setting) {
   const Scalar kept = (Scalar(1.0) - setting.design.epsilon) * setting.directions.m3;
@@ -64,7 +64,7 @@ struct SteadyStep {
 
 namespace detail {
 
-/// What a step does to the covariance and to the error, before the metric.
+/// The effect of a step on covariance and error, before the metric.
 template <typename Scalar>
 struct StepForms {
   Form<Scalar> weights;  ///< 1, alpha and c
@@ -98,7 +98,7 @@ template <typename Scalar>
 
 }  // namespace detail
 
-/// What a step does to the covariance, which depends on the level, on x, and on nothing else of a place.
+/// The effect of a step on the covariance, which depends only on the level and on x.
 template <typename Scalar>
 [[nodiscard]] CovarianceImage<Scalar> covariance_image(const SteadySetting<Scalar>& setting,
                                                        const Scalar& level, const Scalar& x) {

@@ -1,5 +1,5 @@
 // The parts of a step about the steady state (steady_step.hpp), in the order in which they are made: the
-// swing of the phase, the innovation, the mean gain, what it leaves of the error, and T times all that.
+// swing of the phase, the innovation, the mean gain, the error after its correction, and T times each.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace veritrack::quadrature::detail {
 
-/// What belongs to 1, to alpha and to c.
+/// The coefficients of 1, alpha and c.
 template <typename Scalar>
 using Form = std::array<Scalar, 3>;
 
@@ -104,7 +104,7 @@ template <typename Scalar>
           {moved(by_band.p13, by_band.p23), moved(by_alpha.p13, by_alpha.p23), zero}};
 }
 
-/// What the mean gain leaves of the error, as divided differences.
+/// The error after the mean correction, as divided differences.
 template <typename Scalar>
 struct LeftForm {
   PlaneForm<Scalar> delta;  ///< of the corrected estimate, turned to be rho* in the steady state
@@ -163,8 +163,8 @@ template <typename Scalar>
           rigor::arctangent_ratio(tangent) / real};
 }
 
-/// T times what becomes of the error whose part that is not seen in (alpha, c), t, is zero: its frequency
-/// error m is kept but for the leak.
+/// T times the next error for t = 0, the part that does not enter (alpha, c): its frequency error m changes
+/// only by the leak.
 template <typename Scalar>
 [[nodiscard]] std::array<Scalar, 3> image_of(const SteadySetting<Scalar>& setting,
                                              const LeftForm<Scalar>& left, const PolarSlopes<Scalar>& polar,

@@ -12,7 +12,7 @@
 
 namespace veritrack::quadrature {
 
-/// What verify_steady_set found.
+/// The result of verify_steady_set.
 struct SteadyVerification {
   /// PROVED: the promise of SteadySet over all cells of the branch. Otherwise UNDECIDED: that a set was not
   /// certified refutes nothing.
@@ -23,15 +23,15 @@ struct SteadyVerification {
   std::int64_t cells = 0;            ///< examined
 };
 
-/// Is the promise of SteadySet true over these neighbouring cells of a lock branch? Proved are
+/// Is the claim of SteadySet true over these neighbouring cells of a lock branch? The proof shows
 ///   1. T invertible, below > 0, above > 0, P* - below > 0, and the ranges of all inputs;
 ///   2. the errors of each level map into the next one (steady_contraction.hpp), and
 ///   3. so does the covariance (steady_order.hpp), for every cell of frequencies. From the last but one level
 ///      a step maps into the last, and so it does from the last, which is a part of it.
 /// The first level that does not map into the next one and all later ones are dropped, as long as one step
-/// remains. Both with what the rounding of the program in double precision may add (steady_rounding.hpp).
-/// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
-/// UpwardRounding scope; never throws for odd numbers.
+/// remains. Both include the rounding of the program in double precision (steady_rounding.hpp). Cells run in
+/// parallel; the result does not depend on the number of threads. Opens its own UpwardRounding scope; never
+/// throws for invalid numbers.
 [[nodiscard]] SteadyVerification verify_steady_set(const trackers::ToneModel<rigor::Interval>& design,
                                                    const std::vector<sets::QuadratureTube>& branch,
                                                    const SteadySet& proposal,

@@ -1,4 +1,4 @@
-// What the rounding of the program adds to one step of a certified set without a leak (docs/rounding.md).
+// The effect of the program's rounding on one step of a certified set without a leak (docs/rounding.md).
 #pragma once
 
 #include "analysis/quadrature/contraction/certified_set.hpp"
@@ -13,7 +13,7 @@ struct SetRounding {
   double covariance = 0.0;
 };
 
-/// The set shifted by so many turns in the frequency error is covered, too: it is where starts are lost to.
+/// The bounds also cover the set shifted by this many turns in the frequency error, in which lost starts end.
 inline constexpr int kMostTurns = 3;
 
 /// From any state of the set, if the exact step stays in it, for noise of at most that of the set. Infinite
@@ -32,7 +32,7 @@ struct PolarDifference {
                                                const rigor::Interval& largest_zz,
                                                const rigor::Interval& largest_z3);
 
-/// A number mu, at most twice what is needed, such that every symmetric D with blocks within these bounds
+/// A number mu, at most twice the necessary one, such that every symmetric D with blocks within these bounds
 /// satisfies -mu P <= D <= mu P; infinite when P is not certainly positive definite. Needs the upward mode.
 [[nodiscard]] double share_of(const rigor::IntervalMatrix<3>& p, const PolarDifference& difference);
 

@@ -1,4 +1,4 @@
-// What the rounding of the program adds to one step of a set around the steady state (docs/rounding.md).
+// The effect of the program's rounding on one step of a set around the steady state (docs/rounding.md).
 #pragma once
 
 #include <vector>

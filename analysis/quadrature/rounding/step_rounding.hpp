@@ -1,8 +1,8 @@
 // How far one step of the tracker in double precision can be from the same step in real arithmetic.
 //
-// Both start from what the program holds: an estimate whose covariance is the matrix that its factors stand
-// for, and a measurement. The step commutes with turns of the plane, but its rounding does not: the bound
-// covers every orientation.
+// Both start from the program's numbers: an estimate, the matrix represented by its covariance factors, and a
+// measurement. The step commutes with turns of the plane, but its rounding does not: the bound covers every
+// orientation.
 #pragma once
 
 #include "analysis/rigor/interval.hpp"
@@ -19,13 +19,13 @@ using sets::Program;
 using sets::StateDifference;
 using sets::upper_or_infinite;
 
-/// What of the signal matters to rounding, besides its frequency error.
+/// The properties of the signal that matter to rounding, besides its frequency error.
 struct TrackedSignal {
   rigor::Interval amplitude = rigor::Interval(1.0);  ///< signal units
   double largest_frequency = 0x1.921fb54442d19p+1;   ///< of |omega|, rad/sample; pi from above
 };
 
-/// Into how many pieces step_rounding cuts the ranges of what it looks at: many for a tight bound.
+/// The number of pieces into which step_rounding cuts its ranges: many give a tight bound.
 struct Pieces {
   int amplitude = 2;           ///< z1
   int frequency_variance = 8;  ///< P_33

@@ -21,7 +21,7 @@ struct CellTree {
 /// A symmetric box around the ellipsoid, two parts in ten thousand wider.
 [[nodiscard]] ErrorBox box_around(const ErrorEllipsoid& set);
 
-/// Numbers with which all forms are positive over the box; none where they are not found. Needs the upward
+/// Numbers with which all forms are positive over the box; nothing where none are found. Needs the upward
 /// mode.
 [[nodiscard]] std::optional<CellNumbers> numbers_for(const trackers::ToneModel<double>& design,
                                                      const ErrorEllipsoid& set, const ErrorBox& box);

@@ -24,7 +24,7 @@ struct ErrorEllipsoid {
   double slew_gain = 0.0;   ///< (rad/sample)^-2
 };
 
-/// What is stored for a box of errors: see the record `leaf` of leaf.v.
+/// The record of a box of errors: see the record `leaf` of leaf.v.
 struct CellNumbers {
   Eigen::Matrix3d lowest, highest;  ///< bounds on the covariance after the step, before it is turned
   Eigen::Matrix<double, 3, 2> gain;

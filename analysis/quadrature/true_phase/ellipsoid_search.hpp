@@ -10,7 +10,7 @@
 
 namespace veritrack::quadrature {
 
-/// What is asked of the ellipsoid, at amplitude 1.
+/// The request for the ellipsoid, at amplitude 1.
 struct EllipsoidQuestion {
   trackers::ToneModel<double> design;                                      ///< epsilon = 0
   double noise = 0.0;                                                      ///< |v(k)| <= noise
@@ -24,7 +24,7 @@ struct CoveredEllipsoid {
   std::unique_ptr<CellTree> cells;
 };
 
-/// What the frequency error is to be small at: all samples, or in the long run.
+/// Where the frequency error is to be small: at all samples, or in the long run.
 enum class EllipsoidAim { for_ever, in_the_long_run };
 
 /// The least bound on the frequency error that is found; none where nothing is found. Deterministic. Needs
@@ -42,7 +42,7 @@ enum class EllipsoidAim { for_ever, in_the_long_run };
 [[nodiscard]] Eigen::Matrix<double, 3, 2> gain_at(const trackers::ToneModel<double>& design,
                                                   const Eigen::Matrix3d& covariance, double e1, double e2);
 
-/// With 40 significant bits, so that what is checked here is what is written.
+/// With 40 significant bits, so that exactly the checked numbers are written.
 [[nodiscard]] double stored(double x);
 template <typename Matrix>
 [[nodiscard]] Matrix stored(const Matrix& x) {

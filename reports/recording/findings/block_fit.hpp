@@ -19,12 +19,12 @@ class BlockFit {
   BlockFit(const Waveform& waveform, int channels, const certificates::SignalAssumptions& assume,
            std::optional<double> sample_rate);
 
-  /// How many samples a block has at least: enough to tell 50 from 60 Hz, where possible.
+  /// How many samples a block has at least: enough to distinguish 50 from 60 Hz, where possible.
   [[nodiscard]] std::size_t length() const { return length_; }
 
-  /// Samples from that of the first stretch on; the stretches follow each other and have a tone. None where
-  /// the block is too short for its parts. What it returns refers to the samples and to this object until the
-  /// next call.
+  /// Samples from that of the first stretch on; the stretches follow each other and have a tone. Nothing
+  /// where the block is too short for its parts. The result refers to the samples and to this object until
+  /// the next call.
   [[nodiscard]] std::optional<ExaminedBlock> fit(std::span<const ToneStretch> stretches,
                                                  std::span<const RecordedSample> samples);
 

@@ -8,12 +8,12 @@
 
 namespace veritrack::reports {
 
-// What spoils samples for those behind it.
+// Defects that spoil samples for the detectors that come later.
 [[nodiscard]] std::unique_ptr<Detector> clipping_detector(int channels);
 [[nodiscard]] std::unique_ptr<Detector> dropout_detector(int channels);
 [[nodiscard]] std::unique_ptr<Detector> quantisation_detector(const certificates::SignalAssumptions& assume,
                                                               int channels);
-// What looks at the fit of each block.
+// The detectors that examine the fit of each block.
 [[nodiscard]] std::unique_ptr<Detector> offset_detector(int channels);
 [[nodiscard]] std::unique_ptr<Detector> harmonics_detector();
 [[nodiscard]] std::unique_ptr<Detector> hum_detector();

@@ -1,4 +1,4 @@
-// What a recording shows beside its tone, and who looks for it. Nothing here is proved.
+// The findings in a recording beside its tone, and their detectors. Nothing here is proved.
 #pragma once
 
 #include <complex>
@@ -24,7 +24,7 @@ struct Finding {
   std::string remedy;       ///< one or two sentences
   bool is_signal = false;   ///< the recording has another signal than the one that the design assumes
   bool is_slew = false;     ///< the frequency moves faster than assumed
-  bool is_missing = false;  ///< samples are missing, or stand for none
+  bool is_missing = false;  ///< samples are missing, or carry no signal
 };
 
 /// A short stretch of the recording, in which the tone was looked for by itself.
@@ -37,10 +37,10 @@ struct ToneStretch {
   double share = 0.0;      ///< of the power, in [0, 1]
   double root_mean_square = 0.0;
   bool has_tone = false;
-  bool follows = false;  ///< the stretch before ends where this one begins, and has a tone, too
+  bool follows = false;  ///< the previous stretch ends where this one begins, and also has a tone
 };
 
-/// An estimate with what it deviates by in white noise.
+/// An estimate with its deviation in white noise.
 struct FittedPart {
   int order = 0;           ///< of a harmonic
   double hertz = 0.0;      ///< of mains hum
@@ -65,7 +65,7 @@ struct ExaminedBlock {
   [[nodiscard]] std::int64_t last() const { return first + static_cast<std::int64_t>(samples.size()) - 1; }
 };
 
-/// What a finding is put into words with.
+/// The data from which a finding is put into words.
 struct FindingContext {
   const certificates::SignalAssumptions& assume;
   const Waveform& waveform;
@@ -102,7 +102,7 @@ class Detector {
 /// with a probability of exp(-15) = 3e-7; one part alone lies beyond 5 deviations with 6e-7.
 inline constexpr double kSureSquares = 30.0;
 inline constexpr double kSureDeviations = 5.0;
-/// What is less than this part of the tone's amplitude is left out.
+/// Components below this share of the tone's amplitude are omitted.
 inline constexpr double kSmallestPart = 3e-3;
 
 /// Whether an estimate of two parts (with one channel, an offset has one) is there, by the tests above, and

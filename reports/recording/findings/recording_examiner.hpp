@@ -1,4 +1,4 @@
-// What a recording shows by itself, whatever the tracker makes of it: tone, defects, remedies.
+// The properties of a recording that do not depend on the tracker: tone, defects, remedies.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A recording with somebody who listens to it as it is read.
+// A recording with a listener that gets each sample as it is read.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,7 @@ class QuadratureSource : public SampleSource {
   trackers::HilbertFilter filter_;
   std::vector<RecordedSample> raw_;
   std::deque<RecordedSample> ready_;
-  std::int64_t pushed_ = 0;  ///< samples of the recording, of which all but `delay` are ready or gone
+  std::int64_t pushed_ = 0;  ///< samples of the recording; all but `delay` of them are ready or gone
   bool at_end_ = false;
 };
 

@@ -31,7 +31,7 @@ struct BatchTargets {
 /// in what packed.hpp says of sine and cosine.
 class QuadratureBatch {
  public:
-  static constexpr std::size_t kGroup = 8;     ///< trackers are kept in groups of so many
+  static constexpr std::size_t kGroup = 8;     ///< number of trackers in a group
   static constexpr std::size_t kNumbers = 13;  ///< of a tracker: q1, q2, r, epsilon, and its estimate
 
   QuadratureBatch(const std::vector<ToneModel<double>>& designs,

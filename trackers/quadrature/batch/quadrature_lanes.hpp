@@ -11,7 +11,7 @@
 
 namespace veritrack::trackers::detail {
 
-/// What the units of the sets of instructions do: trackers `first` to before `last` of groups, each group
+/// The work of the units of the sets of instructions: trackers `first` to before `last` of groups, each group
 /// kNumbers rows of kGroup numbers.
 using RunGroups = void(double* groups, const BatchSamples& samples, const BatchTargets& targets,
                        std::size_t first, std::size_t last);

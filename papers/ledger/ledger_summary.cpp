@@ -59,7 +59,7 @@ std::vector<std::string> count_row(const std::vector<Row>& rows, Paper paper, Pa
 
 }  // namespace
 
-std::span<const SummaryLine> summary_lines() {  // NOLINT(readability-function-size): a table
+std::span<const SummaryLine> summary_lines() {
   static const std::vector<SummaryLine> lines{
       {la_scala_1994,
        "La Scala's thesis, chapters 2 and 3: stability, the quadrature tracker",

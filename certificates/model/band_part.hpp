@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "analysis/model/tube_set.hpp"
+#include "analysis/model/set/tube_set.hpp"
 #include "certificates/model/model_design.hpp"
 
 namespace veritrack::certificates {

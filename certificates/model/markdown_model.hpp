@@ -15,7 +15,7 @@ namespace veritrack::certificates {
 [[nodiscard]] std::string model_remarks(const Certificate& certificate);
 
 /// The design, the certified sets, bias and ripple, the recursion, and what is covered. Runs the attack of
-/// analysis/model/falsifier.hpp once. Sets its own rounding mode.
+/// analysis/model/set/falsifier.hpp once. Sets its own rounding mode.
 [[nodiscard]] std::string model_sections(const Certificate& certificate, const MarkdownOptions& options);
 
 }  // namespace veritrack::certificates

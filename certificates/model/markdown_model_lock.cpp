@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/gaussian_set.hpp"
+#include "analysis/model/gaussian/gaussian_set.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/model_sets.hpp"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/model/amplitude_parts.hpp"
-#include "analysis/model/falsifier.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
+#include "analysis/model/set/falsifier.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/band_part.hpp"

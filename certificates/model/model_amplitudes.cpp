@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "analysis/model/moving_frequency/moving_set.hpp"
+
 namespace veritrack::certificates {
 
 using model::TubeSet;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/model/amplitude_parts.hpp"
-#include "analysis/model/linear_worst_case.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
+#include "analysis/model/steady_state/linear_worst_case.hpp"
 #include "certificates/model/model_sets.hpp"
 
 namespace veritrack::certificates {

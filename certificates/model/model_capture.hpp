@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "analysis/model/start_capture.hpp"
-#include "analysis/model/tube_set.hpp"
+#include "analysis/model/capture/start_capture.hpp"
+#include "analysis/model/set/tube_set.hpp"
 #include "analysis/search/deadline.hpp"
 #include "certificates/model/model.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/model/amplitude_parts.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/band_part.hpp"
 #include "certificates/model/model_limits.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/model/amplitude_parts.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/assumptions_json.hpp"

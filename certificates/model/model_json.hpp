@@ -1,7 +1,7 @@
 // A model in certificate.json.
 #pragma once
 
-#include "analysis/model/tube_set.hpp"
+#include "analysis/model/set/tube_set.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/number_json.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/model/false_lock.hpp"
-#include "analysis/model/tube_errors.hpp"
+#include "analysis/model/tube/false_lock.hpp"
+#include "analysis/model/tube/tube_errors.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "certificates/model/model_sets.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "analysis/model/gaussian_set.hpp"
+#include "analysis/model/gaussian/gaussian_set.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
@@ -15,7 +15,7 @@ namespace veritrack::certificates {
 struct ModelLock {
   model::TubeSet tubes;
   double frequency_error = 0.0;  ///< in the set, at most, rad/sample
-  double half_distance = 0.0;    ///< to the next false lock (analysis/model/false_lock.hpp), rad/sample
+  double half_distance = 0.0;    ///< to the next false lock (analysis/model/tube/false_lock.hpp), rad/sample
   double start_share = 0.0;      ///< the level of the starts over R, at most
   double probability = 1.0;      ///< of leaving the set within the assumed samples, at most
   std::string snr_db;            ///< of the noise, at least, dB: a decimal

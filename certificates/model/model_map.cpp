@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "analysis/model/angle_check.hpp"
-#include "analysis/model/tube_errors.hpp"
+#include "analysis/model/tube/angle_check.hpp"
+#include "analysis/model/tube/tube_errors.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"

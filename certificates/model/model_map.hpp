@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/capture_basin.hpp"
-#include "analysis/model/capture_map.hpp"
-#include "analysis/model/tube_set.hpp"
+#include "analysis/model/map/capture_basin.hpp"
+#include "analysis/model/map/capture_map.hpp"
+#include "analysis/model/set/tube_set.hpp"
 #include "analysis/search/deadline.hpp"
 #include "certificates/document/certificate.hpp"
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
-#include "analysis/model/amplitude_parts.hpp"
-#include "analysis/model/false_lock.hpp"
-#include "analysis/model/tube_errors.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
+#include "analysis/model/tube/false_lock.hpp"
+#include "analysis/model/tube/tube_errors.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/sets/harder_questions.hpp"

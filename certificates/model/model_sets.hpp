@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/linear_worst_case.hpp"
-#include "analysis/model/tube_set.hpp"
+#include "analysis/model/set/tube_set.hpp"
+#include "analysis/model/steady_state/linear_worst_case.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_capture.hpp"
@@ -19,7 +19,7 @@ namespace veritrack::certificates {
 struct ModelSet {
   model::TubeSet tubes;
   double frequency_error = 0.0;  ///< of level R_0, at most, rad/sample
-  double half_distance = 0.0;    ///< to the next false lock (analysis/model/false_lock.hpp), rad/sample
+  double half_distance = 0.0;    ///< to the next false lock (analysis/model/tube/false_lock.hpp), rad/sample
   double settled_error = 0.0;    ///< of level R_m, at most, rad/sample
   double reach = 0.0;            ///< at least, rad/sample
   double start_share = 0.0;      ///< the level of the assumed starts over R_0, at most

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "analysis/model/angle_check.hpp"
+#include "analysis/model/tube/angle_check.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/model/program_text.hpp"
 

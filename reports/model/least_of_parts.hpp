@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/model/tube_set.hpp"
+#include "analysis/model/set/tube_set.hpp"
 
 namespace veritrack::reports {
 

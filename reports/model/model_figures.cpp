@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/model/point_tube.hpp"
+#include "analysis/model/step/point_tube.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/frequency_units.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/model/amplitude_parts.hpp"
-#include "analysis/model/falsifier.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
+#include "analysis/model/set/falsifier.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "reports/gnuplot.hpp"

@@ -1,7 +1,7 @@
 // A picture of one proved tube, with simulated errors in it.
 #pragma once
 
-#include "analysis/model/tube_set.hpp"
+#include "analysis/model/set/tube_set.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "reports/figures.hpp"
 

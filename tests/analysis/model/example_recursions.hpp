@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/model/steady_state.hpp"
-#include "analysis/model/tube.hpp"
+#include "analysis/model/steady_state/steady_state.hpp"
+#include "analysis/model/step/tube.hpp"
 #include "trackers/model/model_tracker.hpp"
 
 namespace veritrack::test {

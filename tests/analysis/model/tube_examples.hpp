@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/model/tube_step.hpp"
+#include "analysis/model/step/tube_step.hpp"
 #include "tests/analysis/model/example_recursions.hpp"
 
 namespace veritrack::test {

@@ -8,7 +8,7 @@
 #include <complex>
 #include <string>
 
-#include "analysis/model/point_tube.hpp"
+#include "analysis/model/step/point_tube.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/model/model.hpp"

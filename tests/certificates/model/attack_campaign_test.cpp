@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/falsifier.hpp"
+#include "analysis/model/set/falsifier.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/model/model.hpp"

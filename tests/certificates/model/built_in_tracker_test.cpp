@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "analysis/model/point_tube.hpp"
+#include "analysis/model/step/point_tube.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/single_channel/invariant_curve.hpp"
 #include "certificates/design/design_reader.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/amplitude_parts.hpp"
-#include "analysis/model/point_tube.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
+#include "analysis/model/step/point_tube.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/request_error.hpp"
 #include "certificates/model/model_json.hpp"

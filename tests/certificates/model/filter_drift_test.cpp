@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/gaussian_drift.hpp"
-#include "analysis/model/gaussian_set.hpp"
-#include "analysis/model/point_tube.hpp"
-#include "analysis/model/tube_proposal.hpp"
+#include "analysis/model/gaussian/gaussian_drift.hpp"
+#include "analysis/model/gaussian/gaussian_set.hpp"
+#include "analysis/model/step/point_tube.hpp"
+#include "analysis/model/tube/tube_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/model/model.hpp"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/point_tube.hpp"
-#include "analysis/model/tube_proposal.hpp"
-#include "analysis/model/tube_verification.hpp"
+#include "analysis/model/step/point_tube.hpp"
+#include "analysis/model/tube/tube_proposal.hpp"
+#include "analysis/model/tube/tube_verification.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/model/model.hpp"

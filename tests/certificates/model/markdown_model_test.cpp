@@ -6,7 +6,7 @@
 #include <regex>
 #include <string>
 
-#include "analysis/model/set_parts.hpp"
+#include "analysis/model/set/set_parts.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_json.hpp"
 #include "certificates/model/model_sets.hpp"

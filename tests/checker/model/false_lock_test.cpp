@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/false_lock.hpp"
+#include "analysis/model/tube/false_lock.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "tests/checker/model/proposed_certificate.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "analysis/model/gaussian_set.hpp"
+#include "analysis/model/gaussian/gaussian_set.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/support/random.hpp"
 

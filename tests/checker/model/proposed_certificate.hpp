@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/tube_proposal.hpp"
+#include "analysis/model/tube/tube_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/document/tracker_kind.hpp"

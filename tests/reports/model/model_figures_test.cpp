@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "analysis/model/amplitude_parts.hpp"
+#include "analysis/model/set/amplitude_parts.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "reports/model/tube_figure.hpp"
 #include "tests/certificates/model/model_certificates.hpp"

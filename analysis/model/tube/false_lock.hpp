@@ -1,0 +1,16 @@
+// How near another lock may be: a frequency that the tracker may settle at instead of the true one, as far as
+// its formulas and the signal's tell (docs/model-proof.md, section 18).
+#pragma once
+
+#include "analysis/model/step/tube_step.hpp"
+#include "analysis/rigor/interval.hpp"
+
+namespace veritrack::model {
+
+/// Less than the frequency error, rad/sample, from which a state may be nearer to a false lock than to the
+/// true one, for all frequencies of the band (rad/sample). Of a filter with as much to spare as an
+/// independent program may need, which counts the degrees of derivatives otherwise. Needs the upward rounding
+/// mode.
+[[nodiscard]] double half_distance_to_false_lock(const TrackerModel& model, const rigor::Interval& band);
+
+}  // namespace veritrack::model

@@ -62,8 +62,9 @@ class ModelDocuments(CliTestCase):
         certificate, _ = read_documents(self.folder / "out")
         capture = next(claim for claim in certificate["claims"] if claim["id"] == "model/capture")
         self.assertLess(int(capture["samples"]), 100)
-        self.assertIn("started exactly in {x: 0, sigma: -0.01, theta: -0.01} at any phase of the signal, the tracker is "
-                      f'in the set "assumed" of the certificate after at most {capture["samples"]} samples', document)
+        self.assertIn(". started exactly in {x: 0, sigma: -0.01, theta: -0.01} at any phase of the signal\n", document)
+        self.assertIn('): the tracker is in the set "assumed" of the certificate after at most '
+                      f'{capture["samples"]} samples', document)
         self.assertIn("`x = 0`, `sigma = -0.01`, `theta = -0.01`", document)
         # Where nothing moves it towards the signal, it does not come there.
         result, document = self.certify(text + known.replace("-0.01", "1"))

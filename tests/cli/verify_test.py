@@ -88,7 +88,7 @@ class Verify(CliTestCase):
         for name in ("certificate.md", "published-theorems.md"):
             text = (self.folder / "out" / name).read_text()
             self.assertEqual(verify("--markdown", self.folder / "out" / name, certificate).returncode, 0)
-            verdict = re.search(r"^- \*\*REFUTED\*\*.*$|^\*\*PROVED\*\*: .*$", text, re.MULTILINE).group()
+            verdict = re.search(r"^- \*\*REFUTED\*\*.*$|^- \*\*PROVED\*\* \(.*$", text, re.MULTILINE).group()
             turned = verdict.replace("REFUTED", "PROVED") if "REFUTED" in verdict else verdict.replace("PROVED", "REFUTED")
             for forged in (text.replace("\n## ", "\nPROVED: the tracker tolerates any noise.\n\n## ", 1),
                            text + "\n- **PROVED** `ekf/limits`: it tolerates any noise.\n",

@@ -17,7 +17,8 @@ using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostSmallRows, 
 /// The largest |eigenvalue|.
 [[nodiscard]] double largest_absolute_eigenvalue(const Eigen::Ref<const Eigen::MatrixXd>& symmetric);
 
-/// The eigenvectors of a symmetric matrix of any size, of length 1, a column for each, by ascending eigenvalue.
+/// The eigenvectors of a symmetric matrix of any size, of length 1, a column for each, by ascending
+/// eigenvalue.
 [[nodiscard]] Eigen::MatrixXd symmetric_eigenvectors(const Eigen::Ref<const Eigen::MatrixXd>& symmetric);
 /// Those of A v = t B v, B positive definite; v'B v = 1.
 [[nodiscard]] Eigen::MatrixXd pencil_eigenvectors(const Eigen::Ref<const Eigen::MatrixXd>& a,

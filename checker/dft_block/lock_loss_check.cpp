@@ -80,8 +80,8 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   const BlockDrift drift{number("radius"), number("tilt"),         number("growth"),
                          number("weight"), number("floor_weight"), exact_matrix(matrices.at("floor"))};
   const Ball slew_share = number("slew_share");
-  // cannot bind (above, below): no step keeps bounds of the covariance that leave its steady state out, so that
-  // nothing drifts in such a set (docs/block-tracker.md, section 4).
+  // cannot bind (above, below): no step keeps bounds of the covariance that leave its steady state out, so
+  // that nothing drifts in such a set (docs/block-tracker.md, section 4).
   if (!is_drift(drift) || !certainly_positive(slew_share) || !certainly_at_most(one, set.above) ||
       !certainly_at_most(one, set.below)) {
     objections.emplace_back("the evidence is no set");

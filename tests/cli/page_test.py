@@ -94,10 +94,13 @@ class Pages(CliTestCase):
     def test_the_page_says_what_the_document_says(self):
         page = self.page(self.out / "certificate.html")
         markdown = (self.out / "certificate.md").read_text()
-        sentences = re.findall(r"^(?:- )?\*\*(PROVED|REFUTED)\*\*(?: `(\S+)`)?: (.*)$", markdown, re.MULTILINE)
+        sentences = re.findall(r"^(?:- )?\*\*(PROVED|REFUTED)\*\*(?: `(\S+)`| (\(.*?\)))?: (.*)$", markdown, re.MULTILINE)
         self.assertGreaterEqual(len(sentences), 4)
-        for verdict, claim, sentence in sentences:
-            self.assertIn(f"{verdict}{' ' + claim if claim else ''}: {sentence}", page.words())
+        for verdict, claim, numbers, sentence in sentences:
+            behind = claim or numbers
+            self.assertIn(f"{verdict}{' ' + behind if behind else ''}: {sentence}", page.words())
+        for hypothesis in re.findall(r"^\d\. (.*)$", markdown, re.MULTILINE):
+            self.assertIn(hypothesis, page.words())
         headline = markdown.splitlines()[0].removeprefix("# ")
         self.assertIn(headline, page.words())
         self.assertIn("veritrack-verify certificate.json --full --design design.toml --markdown certificate.md "

@@ -97,7 +97,7 @@ bool is_reason(const std::string& line) {
 
 /// Whether a reader takes the line for one of the list, or for a sentence with its verdict.
 bool is_of_list(const std::string& line) {
-  const std::size_t begin = std::min(line.find_first_not_of(" "), line.size());
+  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
   const std::string_view text = std::string_view(line).substr(begin);
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
   const bool is_numbered = digits > 0 && digits < text.size() && (text[digits] == '.' || text[digits] == ')');

@@ -21,6 +21,7 @@
 #include "cli/check_output.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/standard_output.hpp"
 #include "cli/verifier.hpp"
 #include "cli/workers.hpp"
 #include "reports/check/check_cache.hpp"
@@ -175,7 +176,7 @@ CheckedDesign checked_by(const WorkerResult& result, const CheckOptions& options
 ExitStatus finish(const CheckOptions& options, std::size_t designs, std::vector<CheckedDesign>& checked) {
   if (designs > 1) {
     fmt::print("{}\n", reports::summary_of(checked));
-    std::fflush(stdout);
+    flush_standard_output();
   }
   write_reports(options, checked);
   return static_cast<ExitStatus>(reports::exit_status_of(checked));
@@ -223,7 +224,7 @@ ExitStatus run_check(const CheckOptions& options) {
     for (; printed < tasks.size() && tasks[printed].checked; ++printed) {
       print_checked(*tasks[printed].checked);
     }
-    std::fflush(stdout);
+    flush_standard_output();
     line(known, tasks.size());
   };
   std::vector<std::size_t> open;

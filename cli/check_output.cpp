@@ -10,6 +10,7 @@
 
 #include "certificates/design/input_error.hpp"
 #include "certificates/document/output_files.hpp"
+#include "cli/standard_output.hpp"
 #include "reports/check/check_reports.hpp"
 
 namespace veritrack::cli {
@@ -49,7 +50,7 @@ void print_checked(const CheckedDesign& design) {
   const auto outcome = reports::outcome_of(design);
   const char* verified = design.verified.value_or(false) ? ", verified" : "";
   if (outcome == reports::CheckOutcome::bad) {
-    std::fflush(stdout);
+    flush_standard_output();
     const CheckObjection& objection = *design.objection;
     fmt::print(stderr, "{}\n",
                certificates::InputError(design.path, objection.position, objection.message).what());

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "cli/program.hpp"
+#include "cli/standard_output.hpp"
 
 namespace veritrack::cli {
 
@@ -35,7 +36,7 @@ std::string replace_by(const std::string& program, std::vector<std::string> word
     arguments.push_back(word.data());
   }
   arguments.push_back(nullptr);
-  std::fflush(stdout);
+  flush_standard_output();
   ::execvp(program.c_str(), arguments.data());
   return std::generic_category().message(errno);
 }

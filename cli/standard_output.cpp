@@ -23,10 +23,22 @@ void prepare_standard_streams() {
   (void)std::signal(SIGPIPE, SIG_IGN);
 }
 
+namespace {
+
+int first_error = 0;  ///< of writing; what the library keeps of one does not say which
+
+}  // namespace
+
+void flush_standard_output() {
+  if (std::fflush(stdout) != 0 && first_error == 0) {
+    first_error = errno;
+  }
+}
+
 void finish_standard_output() {
-  const bool failed_before = std::ferror(stdout) != 0;
-  if (std::fflush(stdout) != 0 || failed_before) {
-    const int error = errno != 0 ? errno : EIO;
+  flush_standard_output();
+  if (first_error != 0 || std::ferror(stdout) != 0) {
+    const int error = first_error != 0 ? first_error : EIO;
     throw std::runtime_error("standard output cannot be written: " + std::generic_category().message(error));
   }
 }

@@ -7,6 +7,9 @@ namespace veritrack::cli {
 /// program opens takes its place, and a reader that goes away is an error like any other and no signal.
 void prepare_standard_streams();
 
+/// Writes what was printed so far. That it cannot be written is for finish_standard_output to say.
+void flush_standard_output();
+
 /// Throws std::runtime_error when what was printed to standard output has not all been written.
 void finish_standard_output();
 

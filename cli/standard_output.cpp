@@ -36,9 +36,10 @@ void flush_standard_output() {
 }
 
 void finish_standard_output() {
+  const int last_error = errno;  // of what the library flushed by itself, if of nothing later
   flush_standard_output();
   if (first_error != 0 || std::ferror(stdout) != 0) {
-    const int error = first_error != 0 ? first_error : EIO;
+    const int error = first_error != 0 ? first_error : last_error != 0 ? last_error : EIO;
     throw std::runtime_error("standard output cannot be written: " + std::generic_category().message(error));
   }
 }

@@ -169,7 +169,7 @@ certificates::TrackerOnSamples tracker_of(const certificates::Design& design, co
   }
 }
 
-/// In lock all along, and nothing that was tested speaks against an assumption.
+/// In lock all along, and no tested assumption is violated.
 bool is_fine(const reports::TrackReport& report) {
   const reports::TrackResult& result = report.result;
   return !result.blocks.empty() ? reports::blocks_are_in_lock(result)

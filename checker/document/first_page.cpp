@@ -164,7 +164,8 @@ void check_first_page(const Lines& lines, const Lines& expected, Objections& obj
   const auto is_foreign = [](const std::string& line) {
     return !line.empty() && !is_of_list(line) && !is_reason(line);
   };
-  if (std::any_of(first, last, is_foreign)) {
+  // A line that follows the last one at once is read as a part of it.
+  if (std::any_of(first, std::find(last, lines.end(), ""), is_foreign)) {
     objections.emplace_back("the document says something between the sentences that were verified");
   }
 }

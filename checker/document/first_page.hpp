@@ -17,7 +17,7 @@ std::string word_of(Verdict verdict);
 std::vector<std::string> first_page(const std::vector<Sentence>& sentences);
 
 /// Objects unless these lines, from the headline to the first section, say that, and nothing else between the
-/// first and the last line of it but reasons. Undecided sentences may stand before it.
+/// first and the last line of it, or right behind that, but reasons. Undecided sentences may stand before it.
 void check_first_page(const std::vector<std::string>& lines, const std::vector<std::string>& expected,
                       Objections& objections);
 

@@ -23,6 +23,7 @@ constexpr double kTarget = 0.96;
 constexpr double kLastTarget = 0.975;
 /// rad/sample: the narrowest pieces are a cell wide. Its multiples are exact.
 constexpr double kCellWidth = 0.0625;
+constexpr double kNyquist = 3.14;  // rad/sample
 
 /// The bias grows with the frequency.
 bool cells_end_hard(const Cells& cells) {
@@ -183,15 +184,16 @@ sets::LockBranch aligned_cells(const trackers::ToneModel<Interval>& design, cons
   const auto cells = [&](double from, double to) {
     return sets::verify_lock_branch(design, hull(Interval(from), Interval(to)), {.largest = kCellWidth});
   };
-  sets::LockBranch aligned = cells(kCellWidth * std::floor(band.lower() / kCellWidth),
-                                   kCellWidth * std::ceil(band.upper() / kCellWidth));
+  const double low = kCellWidth * std::floor(band.lower() / kCellWidth);
+  const double high = kCellWidth * std::ceil(band.upper() / kCellWidth);
+  sets::LockBranch aligned =
+      cells(low > -kNyquist ? low : band.lower(), high < kNyquist ? high : band.upper());
   return aligned.verdict == Verdict::proved ? aligned : cells(band.lower(), band.upper());
 }
 
 /// The cell beyond the hard end of the cells, if it has steady states.
 std::optional<sets::QuadratureTube> cell_beyond(const trackers::ToneModel<Interval>& design,
                                                 const Cells& cells) {
-  constexpr double kNyquist = 3.14;
   const Interval first = cells.front().parameter;
   const Interval last = cells.back().parameter;
   const bool is_above = cells_end_hard(cells);

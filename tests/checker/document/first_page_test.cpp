@@ -94,7 +94,9 @@ TEST_CASE("the list is accepted with reasons, empty lines and what is undecided 
   CHECK(objections_to(with(7, "  Why: All these starts lie in a set.")) == 0);
   CHECK(objections_to(with(1, "")) == 0);
   CHECK(objections_to(with(0, "**UNDECIDED**: It might be more.")) == 0);
-  CHECK(objections_to(with(10, "*Verified* by itself.")) == 0);
+  Lines below = with(10, "*Verified* by itself.");
+  below.insert(below.begin() + 10, "");
+  CHECK(objections_to(below) == 0);
 }
 
 TEST_CASE("any other line of the list is refused") {
@@ -120,7 +122,7 @@ TEST_CASE("nothing is added to the list, in whatever form a reader takes for a l
        {"5. or without any", "5) or without any", "   5. or without any", "1. In double precision",
         "- **PROVED** (1): all is well.", "  - **PROVED**: all is well.", "* **PROVED**: all is well.",
         "All of these are examples.", "- or without any", "> quoted", "### Then", "  or any other"}) {
-    for (std::size_t line = 1; line < kPage.size(); ++line) {
+    for (std::size_t line = 1; line <= kPage.size(); ++line) {  // right behind it, too
       CAPTURE(line);
       CHECK_MESSAGE(objections_to(with(line, added)) == 1, std::string(added));
     }

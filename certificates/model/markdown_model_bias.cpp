@@ -15,12 +15,14 @@ namespace veritrack::certificates {
 
 namespace {
 
+using model::FrequencySlice;
+
 /// Cells of frequencies, joined: the hull of what is known of them.
-std::vector<ModelCell> joined(const std::vector<ModelCell>& cells, std::size_t most) {
-  std::vector<ModelCell> rows;
+std::vector<FrequencySlice> joined(const std::vector<FrequencySlice>& cells, std::size_t most) {
+  std::vector<FrequencySlice> rows;
   const std::size_t size = (cells.size() + most - 1) / most;
   std::size_t count = 0;
-  for (const ModelCell& cell : cells) {
+  for (const FrequencySlice& cell : cells) {
     // Ends are doubles near each other; a row must not span what has no cell.
     const bool is_next = !rows.empty() && cell.low - rows.back().high < 1e-9 * cell.low;
     if (!is_next || count == size) {
@@ -29,7 +31,7 @@ std::vector<ModelCell> joined(const std::vector<ModelCell>& cells, std::size_t m
       continue;
     }
     ++count;
-    ModelCell& row = rows.back();
+    FrequencySlice& row = rows.back();
     const bool is_known = rigor::is_finite(row.bias) && rigor::is_finite(cell.bias);
     row.high = std::max(row.high, cell.high);
     row.bias = is_known ? hull(row.bias, cell.bias) : rigor::Interval::empty();
@@ -52,7 +54,7 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
   // With one level only, starts are not proved to come closer.
   const bool settles = std::all_of(tubes.begin(), tubes.end(),
                                    [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
-  if (sets.cells.empty() || !settles) {
+  if (sets.slices.empty() || !settles) {
     return "## Bias and ripple\n\nNothing is known of them: they need a set without noise in which errors "
            "shrink.\n\n";
   }
@@ -80,7 +82,7 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
   }
   constexpr std::size_t kMostRows = 16;
   std::vector<std::vector<std::string>> rows;
-  for (const ModelCell& cell : joined(sets.cells, kMostRows)) {
+  for (const FrequencySlice& cell : joined(sets.slices, kMostRows)) {
     const auto ends = [](double low, double high) { return fmt::format("{:.6g} to {:.6g}", low, high); };
     std::vector<std::string> row{ends(cell.low, cell.high), outward(cell.bias),
                                  upper(rigor::Interval(cell.ripple))};

@@ -19,17 +19,18 @@ namespace veritrack::certificates {
 
 namespace {
 
+using model::ProvedSet;
 using model::ProvedTube;
 using rigor::Direction;
 using rigor::to_decimal;
 
 /// A set, and what it is for.
 struct NamedSet {
-  const ModelSet* set;
+  const ProvedSet* set;
   std::string purpose;
-  bool is_given = false;               ///< noise and slew are; otherwise they are searched for
-  std::string where = {};              ///< ", over [0.2, 0.4] rad/sample only"; empty for the whole band
-  const ModelSet* long_run = nullptr;  ///< inside it
+  bool is_given = false;                ///< noise and slew are; otherwise they are searched for
+  std::string where = {};               ///< ", over [0.2, 0.4] rad/sample only"; empty for the whole band
+  const ProvedSet* long_run = nullptr;  ///< inside it
 
   [[nodiscard]] double settled_error() const {
     return long_run != nullptr ? long_run->settled_error : set->settled_error;
@@ -67,7 +68,7 @@ std::vector<NamedSet> named_sets(const ModelSets& sets, const ModelAssumptions& 
 }
 
 /// After so many samples every start is at the lowest level.
-double samples_to_settle(const ModelSet& set, const ModelSet* long_run) {
+double samples_to_settle(const ProvedSet& set, const ProvedSet* long_run) {
   double samples = 0.0;
   std::size_t number = 0;  // of the tube, which is that of the long run's
   for (const model::TubeSet& part : model::sets_of_amplitudes(set.tubes)) {
@@ -82,7 +83,7 @@ double samples_to_settle(const ModelSet& set, const ModelSet* long_run) {
   return samples;
 }
 
-std::string levels_of(const ModelSet& set) {
+std::string levels_of(const ProvedSet& set) {
   const auto [least, most] = std::minmax_element(
       set.tubes.tubes.begin(), set.tubes.tubes.end(),
       [](const ProvedTube& a, const ProvedTube& b) { return a.levels.size() < b.levels.size(); });
@@ -101,7 +102,7 @@ std::string noise_text(const model::TubeSet& set) {
 }
 
 std::vector<std::string> row_of(const NamedSet& named, const FrequencyUnits& units) {
-  const ModelSet& set = *named.set;
+  const ProvedSet& set = *named.set;
   const bool is_known = named.is_given || named.is_any();
   std::vector<std::string> row{named.purpose + named.where,
                                bound_in_table(set.tubes.noise, noise_text(set.tubes), is_known),
@@ -131,7 +132,7 @@ std::string disturbances_of(const model::TubeSet& set, const FrequencyUnits& uni
 }
 
 std::string sentence_of(const NamedSet& named, const FrequencyUnits& units, const ModelAssumptions& assume) {
-  const ModelSet& set = *named.set;
+  const ProvedSet& set = *named.set;
   std::string text = fmt::format(
       "- *For {}{}*: {}{}, a start in this set stays in it for ever, with a frequency error of at most {}",
       named.purpose, named.where, disturbances_of(set.tubes, units),
@@ -177,7 +178,7 @@ std::string objections(const NamedSet& named) {
 /// What simulations reach of the bounds of the set that decides.
 std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
                       const FrequencyUnits& units) {
-  const ModelSet& set = *named.set;
+  const ProvedSet& set = *named.set;
   const model::TubeAttack attack = attack_tubes(tracker, set.tubes);
   if (attack.level_share > 1.0 || attack.frequency_error > set.frequency_error) {
     return fmt::format(
@@ -227,7 +228,7 @@ std::string linear_comparison(const ModelSets& sets, const FrequencyUnits& units
 /// Into how many parts the range of a constant amplitude is cut.
 std::string parts_sentence(const ModelSets& sets) {
   std::size_t parts = sets.starts.tubes.amplitudes.size();
-  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {
+  for (const std::optional<ProvedSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {
     parts = *set ? std::max(parts, (*set)->tubes.amplitudes.size()) : parts;
   }
   return fmt::format(
@@ -301,7 +302,7 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
         "The long run in the assumed noise is that of a second set, `long-run`, inside the lowest levels of "
         "the first: when errors are small, the covariance comes between two narrower matrices.\n\n";
   }
-  const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
+  const ProvedSet& deciding = sets.deciding();
   if (model_tables(certificate.design).require.sets.frequency_error_below &&
       (deciding.is_proved() || deciding.has_part())) {
     text +=

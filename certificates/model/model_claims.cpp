@@ -21,6 +21,7 @@ namespace veritrack::certificates {
 
 namespace {
 
+using model::ProvedSet;
 using rigor::Interval;
 using rigor::Verdict;
 
@@ -46,7 +47,7 @@ class ModelClaims {
         sets_(&model_sets(certificate)),
         words_(words_for(std::nullopt)),
         units_(tables_->assume.sample_rate),
-        deciding_(sets_->assumed ? &*sets_->assumed : &sets_->starts) {}
+        deciding_(&sets_->deciding()) {}
 
   void add_told() {
     if (is_gaussian()) {
@@ -69,7 +70,8 @@ class ModelClaims {
       }
       add(claim);
     }
-    if (const Scope scope = scope_of(*deciding_); scope.is_any && captures_start() && deciding_->is_lock()) {
+    if (const Scope scope = scope_of(*deciding_);
+        scope.is_any && captures_start() && names_lock(*deciding_)) {
       add_capture(*sets_->capture, scope.part);
     }
     if (const auto limits = limits_of(*sets_, tables_->assume)) {
@@ -78,7 +80,7 @@ class ModelClaims {
     if (const auto limit = slew_limit_of(*sets_, tables_->assume)) {
       add_slew_limit(*limit);
     }
-    const ModelSet& starts = sets_->starts;
+    const ProvedSet& starts = sets_->starts;
     if (const Scope scope = scope_of(starts); scope.is_any && knows_bias()) {
       Claim claim = reported("model/steady-state", words_for(scope.part).constant_tone() +
                                                        ", without noise, " + words_.started_in("starts"));
@@ -189,7 +191,7 @@ class ModelClaims {
     return claim;
   }
   /// " (by the set "assumed" of the certificate)", of a set that was made for something else.
-  static std::string by_set(const ModelSet& set, const char* usual) {
+  static std::string by_set(const ProvedSet& set, const char* usual) {
     return set.tubes.name == usual ? std::string()
                                    : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
   }
@@ -241,7 +243,7 @@ class ModelClaims {
   void add_slew_limit(const SlewLimit& limit) {
     const ModelWords words = words_for(limit.part);
     Claim claim = reported("model/slew-limit", words.tone_with("a frequency that stays in " + words.band()));
-    const ModelSet& set = *limit.slew.set;
+    const ProvedSet& set = *limit.slew.set;
     const std::string slew = below(limit.slew.size);
     claim.values = {{"slew", slew}, {"frequency_error", above(set.frequency_error)}};
     if (set.tubes.noise > 0.0) {
@@ -259,7 +261,7 @@ class ModelClaims {
     add(claim);
   }
   /// Where the set is proved.
-  [[nodiscard]] Scope scope_of(const ModelSet& set) const {
+  [[nodiscard]] Scope scope_of(const ProvedSet& set) const {
     Scope scope;
     if (!sets_->objection.empty() || (!set.is_proved() && !set.has_part())) {
       return scope;
@@ -317,8 +319,8 @@ class ModelClaims {
       add(claim);
       return;
     }
-    const ModelSet& set = *largest.set;
-    const bool is_lock = set.is_lock();
+    const ProvedSet& set = *largest.set;
+    const bool is_lock = names_lock(set);
     const bool holds = is_lock && rigor::certainly_less_equal(number.value, Interval(size));
     Claim claim = say(holds ? in_lock(set) : "");
     if (holds) {
@@ -332,7 +334,7 @@ class ModelClaims {
     add(claim);
   }
   /// " in which the frequency error stays at or below 0.05 rad/sample".
-  [[nodiscard]] std::string in_lock(const ModelSet& set) const {
+  [[nodiscard]] std::string in_lock(const ProvedSet& set) const {
     return " in which the frequency error stays at or below " + units_.at_most(above(set.frequency_error));
   }
 
@@ -376,7 +378,7 @@ class ModelClaims {
       claim.reason = "It is not proved that it comes there: " + sets_->capture->reason + ".";
     } else {
       const double samples = sets_->capture->samples;
-      const bool is_lock = deciding_->is_lock();
+      const bool is_lock = names_lock(*deciding_);
       if (is_lock && rigor::certainly_less_equal(Interval(samples), within.value)) {
         const std::string error = above(deciding_->frequency_error);
         claim = say(", and there the frequency error stays at or below " + units_.at_most(error));
@@ -450,13 +452,13 @@ class ModelClaims {
   [[nodiscard]] bool has_bias() const { return sets_->starts.is_proved() && knows_bias(); }
   /// For the frequencies that the set without noise covers.
   [[nodiscard]] bool knows_bias() const {
-    const ModelSet& starts = sets_->starts;
+    const ProvedSet& starts = sets_->starts;
     return rigor::is_finite(starts.bias) && std::isfinite(starts.ripple) &&
            std::all_of(starts.tubes.tubes.begin(), starts.tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
   /// `is_met`: what is required is proved for the frequencies that the set covers.
-  [[nodiscard]] std::string objection_of(const ModelSet& set, bool is_met = false) const {
+  [[nodiscard]] std::string objection_of(const ProvedSet& set, bool is_met = false) const {
     std::string text = "No set of tubes was proved for the whole band";
     if (const Scope scope = scope_of(set); scope.part) {
       text = fmt::format("{} over {} to {} {} only", is_met ? "Proved" : "A set of tubes was proved",
@@ -477,7 +479,7 @@ class ModelClaims {
   /// Where no set was proved for the assumed noise and slew: for which it was.
   [[nodiscard]] std::string tolerated() const {
     std::string text;
-    const auto tell = [&](const std::optional<ModelSet>& set, double model::TubeSet::*size,
+    const auto tell = [&](const std::optional<ProvedSet>& set, double model::TubeSet::*size,
                           std::string_view what, std::string_view unit) {
       const Scope scope = sets_->assumed && set ? scope_of(*set) : Scope{};
       if (!scope.is_any || !(set->tubes.*size > 0.0)) {
@@ -496,12 +498,12 @@ class ModelClaims {
     return text;
   }
   /// Why the largest noise or slew is not known for the whole band.
-  [[nodiscard]] std::string objection_to_size(const std::optional<ModelSet>& set,
+  [[nodiscard]] std::string objection_to_size(const std::optional<ProvedSet>& set,
                                               double model::TubeSet::*size, std::string_view what) const {
     if (!set || !sets_->objection.empty()) {
       return assumption_objection();
     }
-    if (set->is_proved() && !set->is_lock()) {
+    if (set->is_proved() && !names_lock(*set)) {
       return fmt::format("A set was proved. {}.", lock_objection(set->frequency_error, set->half_distance));
     }
     return objection_of(*set) +
@@ -522,7 +524,7 @@ class ModelClaims {
   const ModelSets* sets_;
   ModelWords words_;
   FrequencyUnits units_;
-  const ModelSet* deciding_;
+  const ProvedSet* deciding_;
 };
 
 }  // namespace

@@ -12,6 +12,8 @@ namespace veritrack::certificates {
 
 namespace {
 
+using model::ProvedSet;
+
 Json texts_json(const std::vector<SourceText>& texts) {
   Json list = Json::array();
   for (const SourceText& text : texts) {
@@ -182,14 +184,14 @@ Json model_evidence_json(const Certificate& certificate) {
       list.push_back(set_json(part));
     }
   };
-  const auto add = [&](const ModelSet& set) {
+  const auto add = [&](const ProvedSet& set) {
     // Nothing is reported of a part of the set for the largest slew.
     if (set.is_proved() || (set.has_part() && set.tubes.name != "slew")) {
       list_all(set.tubes);
     }
   };
   add(sets.starts);
-  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.long_run, &sets.noise, &sets.slew}) {
+  for (const std::optional<ProvedSet>* set : {&sets.assumed, &sets.long_run, &sets.noise, &sets.slew}) {
     if (*set) {
       add(**set);
     }

@@ -7,26 +7,28 @@ namespace veritrack::certificates {
 
 namespace {
 
-using Sets = std::vector<const ModelSet*>;
+using model::ProvedSet;
+using Sets = std::vector<const ProvedSet*>;
 using Part = std::optional<model::FrequencyRange>;
 
-double noise_of(const ModelSet& set) {
+double noise_of(const ProvedSet& set) {
   return set.tubes.noise;
 }
-double slew_of_set(const ModelSet& set) {
+double slew_of_set(const ProvedSet& set) {
   return set.tubes.slew;
 }
-double reach_of(const ModelSet& set) {
+double reach_of(const ProvedSet& set) {
   return set.reach;
 }
 
 /// Those that the certificate has, in this order; of the set for the largest slew no part is written.
-Sets in_order(std::initializer_list<const std::optional<ModelSet>*> sets, const ModelSet* starts = nullptr) {
+Sets in_order(std::initializer_list<const std::optional<ProvedSet>*> sets,
+              const ProvedSet* starts = nullptr) {
   Sets found;
   if (starts != nullptr) {
     found.push_back(starts);
   }
-  for (const std::optional<ModelSet>* set : sets) {
+  for (const std::optional<ProvedSet>* set : sets) {
     if (*set) {
       found.push_back(&**set);
     }
@@ -40,21 +42,21 @@ Sets for_slew(const ModelSets& sets) {
   return in_order({&sets.slew, &sets.assumed});
 }
 
-bool has_part(const ModelSet& set) {
+bool has_part(const ProvedSet& set) {
   return set.has_part() && set.tubes.name != "slew";
 }
 /// No part: the whole band.
-bool covers(const ModelSet& set, const Part& part) {
+bool covers(const ProvedSet& set, const Part& part) {
   return set.is_proved() ||
          (part && has_part(set) && set.tubes.part.low <= part->low && part->high <= set.tubes.part.high);
 }
 
 /// Of those that cover the part, and that are a lock. What is no number is no size.
-LargestOfSets largest(const Sets& sets, const Part& part, double (*size)(const ModelSet&)) {
+LargestOfSets largest(const Sets& sets, const Part& part, double (*size)(const ProvedSet&)) {
   LargestOfSets found;
-  for (const ModelSet* set : sets) {
+  for (const ProvedSet* set : sets) {
     const double here = size(*set);
-    if (covers(*set, part) && set->is_lock() && std::isfinite(here) && here > found.size) {
+    if (covers(*set, part) && names_lock(*set) && std::isfinite(here) && here > found.size) {
       found = {here, set};
     }
   }
@@ -67,15 +69,15 @@ struct Where {
   std::optional<BandPart> part;
 };
 std::optional<Where> where(const Sets& sets, const ModelAssumptions& assume,
-                           double (*size)(const ModelSet&)) {
+                           double (*size)(const ProvedSet&)) {
   if (largest(sets, std::nullopt, size).set != nullptr) {
     return Where{};
   }
   std::optional<Where> widest;
-  for (const ModelSet* set : sets) {
+  for (const ProvedSet* set : sets) {
     const model::FrequencyRange& range = set->tubes.part;
     const bool is_wider = !widest || range.high - range.low > widest->range->high - widest->range->low;
-    if (!has_part(*set) || !set->is_lock() || !(size(*set) > 0.0) || !is_wider) {
+    if (!has_part(*set) || !names_lock(*set) || !(size(*set) > 0.0) || !is_wider) {
       continue;
     }
     if (auto part = band_part(assume, range)) {

@@ -14,7 +14,7 @@ namespace veritrack::certificates {
 /// the set that was made for it.
 struct LargestOfSets {
   double size = 0.0;
-  const ModelSet* set = nullptr;
+  const model::ProvedSet* set = nullptr;
 };
 
 /// At a constant frequency, for the whole band or, where no noise is proved for all of it, for the widest

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analysis/model/gaussian/gaussian_set.hpp"
+#include "analysis/model/set/proved_set.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
@@ -26,6 +27,9 @@ struct ModelLock {
 /// Whether sentences about lock may be said of a set with this bound of the frequency error, as they write
 /// it: it is nearer to the true lock than to any false one.
 [[nodiscard]] bool names_lock(double frequency_error, double half_distance);
+[[nodiscard]] inline bool names_lock(const model::ProvedSet& set) {
+  return names_lock(set.frequency_error, set.half_distance);
+}
 /// Why not.
 [[nodiscard]] std::string lock_objection(double frequency_error, double half_distance);
 

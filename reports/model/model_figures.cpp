@@ -23,8 +23,8 @@ namespace veritrack::reports {
 namespace {
 
 using certificates::FrequencyUnits;
-using certificates::ModelCell;
-using certificates::ModelSet;
+using model::FrequencySlice;
+using model::ProvedSet;
 using model::ProvedTube;
 
 /// "frequency of the signal [Hz]", and the like.
@@ -33,10 +33,10 @@ std::string in_unit(const char* quantity, const FrequencyUnits& units) {
 }
 
 /// What is proved of bias and ripple over each cell of frequencies: a row for each of its ends.
-FigureTable table_of_cells(const std::vector<ModelCell>& cells, const FrequencyUnits& units) {
+FigureTable table_of_cells(const std::vector<FrequencySlice>& cells, const FrequencyUnits& units) {
   FigureTable table("cells", {in_unit("frequency of the signal", units), in_unit("bias, at least", units),
                               in_unit("bias, at most", units), in_unit("ripple, at most", units)});
-  for (const ModelCell& cell : cells) {
+  for (const FrequencySlice& cell : cells) {
     for (const double place : {cell.low, cell.high}) {
       table.add({units.drawn(place), units.drawn(cell.bias.lower()), units.drawn(cell.bias.upper()),
                  units.drawn(cell.ripple)});
@@ -101,7 +101,7 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
   const rigor::NearestRounding nearest;
   const std::string unit = units.drawn_unit();
   std::string script = gnuplot_style(520);
-  FigureTable cells = table_of_cells(sets.cells, units);
+  FigureTable cells = table_of_cells(sets.slices, units);
   FigureTable curve = table_on_curve(tracker, sets.starts.tubes.tubes, units);
   script += cells.block() + curve.block();
   script += fmt::format(
@@ -119,7 +119,7 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
       "plot $cells using 1:4 with lines lw 1.6 lc rgb '#000000' title 'ripple, proved to be at most', "
       "$curve using 1:3 with lines lw 1.6 dt 2 lc rgb '#000000' title 'computed, not proved'\n"
       "unset multiplot\n",
-      units.drawn(sets.cells.front().low), units.drawn(sets.cells.back().high), unit, unit, unit);
+      units.drawn(sets.slices.front().low), units.drawn(sets.slices.back().high), unit, unit, unit);
   return {"bias.svg",
           fmt::format("Bias (above) and ripple (below) of the frequency estimate in the long run, without "
                       "noise, {}, against the frequency of the signal. The bias is proved to be in the grey "
@@ -132,7 +132,7 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
 }
 
 /// Adds how far each tube of a set reaches, proved as for the whole set.
-void add_reach(const std::string& name, const ModelSet& set, const model::TrackerModel& tracker,
+void add_reach(const std::string& name, const ProvedSet& set, const model::TrackerModel& tracker,
                const FrequencyUnits& units, FigureTable& table) {
   const auto reach_of = [&](const ProvedTube& proved) {
     return 0.999 * bound_reach(tracker, proved.tube, proved.levels.front(), {});
@@ -143,7 +143,7 @@ void add_reach(const std::string& name, const ModelSet& set, const model::Tracke
   }
 }
 
-Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& sets,
+Figure reach_figure(const std::vector<std::pair<std::string, const ProvedSet*>>& sets,
                     const model::TrackerModel& tracker, const FrequencyUnits& units) {
   constexpr std::array<std::string_view, 4> kStyles{
       "lw 2 dt 1 lc rgb '#000000'", "lw 2 dt 2 lc rgb '#000000'", "lw 2 dt 3 lc rgb '#000000'",
@@ -196,7 +196,7 @@ FigureTable table_of_own(const char* name, const char* quantity, const model::Tu
 }
 
 /// Whether it was looked for, cell by cell.
-bool has_own(const std::optional<ModelSet>& set, double model::ProvedTube::*own) {
+bool has_own(const std::optional<ProvedSet>& set, double model::ProvedTube::*own) {
   return set && (set->is_proved() || set->has_part()) &&
          std::all_of(set->tubes.tubes.begin(), set->tubes.tubes.end(),
                      [own](const ProvedTube& proved) { return proved.*own > 0.0; });
@@ -266,8 +266,8 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
   const certificates::Model model = make_model(tables.model, tables.assume.signal);
   const model::TrackerModel tracker = proved_model(model, tables.assume);
   const FrequencyUnits units(tables.assume.sample_rate);
-  std::vector<std::pair<std::string, const ModelSet*>> proved;
-  const auto add = [&](const char* name, const ModelSet& set) {
+  std::vector<std::pair<std::string, const ProvedSet*>> proved;
+  const auto add = [&](const char* name, const ProvedSet& set) {
     if (set.is_proved() || set.has_part()) {
       proved.emplace_back(name, &set);
     }
@@ -296,10 +296,10 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
       figures.push_back(draw_tube(tracker, (has_assumed ? *sets.assumed : sets.starts).tubes, units));
     }
   }
-  const auto is_known = [](const ModelCell& cell) {
+  const auto is_known = [](const FrequencySlice& cell) {
     return rigor::is_finite(cell.bias) && std::isfinite(cell.ripple);
   };
-  if (!sets.cells.empty() && std::all_of(sets.cells.begin(), sets.cells.end(), is_known)) {
+  if (!sets.slices.empty() && std::all_of(sets.slices.begin(), sets.slices.end(), is_known)) {
     figures.push_back(bias_and_ripple_figure(sets, tracker, units));
   }
   return figures;

@@ -23,6 +23,8 @@
 namespace veritrack::certificates {
 namespace {
 
+using model::ProvedSet;
+
 std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
@@ -63,7 +65,7 @@ TEST_CASE("no start on the rim of a certified set leaves it, under disturbances 
       const rigor::UpwardRounding upward;
       return proved_model(model, tables.assume);
     }();
-    const auto attack = [&](const char* name, const ModelSet& set) {
+    const auto attack = [&](const char* name, const ProvedSet& set) {
       if (set.tubes.tubes.empty()) {
         std::cout << fmt::format("{}, {}: no set\n", path.stem().string(), name) << std::flush;
         return;

@@ -21,6 +21,7 @@
 namespace veritrack::certificates {
 namespace {
 
+using model::ProvedSet;
 using rigor::Interval;
 
 constexpr double kProcessNoise = 0.005;
@@ -75,7 +76,7 @@ TEST_CASE("the built-in single-channel filter keeps the bounds that are proved o
   const Certified filter(filter_with("0", "0.003"));
   REQUIRE(filter.sets.bounds_covariance);
   REQUIRE(filter.sets.assumed.value().is_proved());
-  const ModelSet& set = *filter.sets.assumed;
+  const ProvedSet& set = *filter.sets.assumed;
   const double settled = settled_error_of(filter.sets);
   CHECK(settled < set.frequency_error);
   const model::TrackerModel tracker = proved_model(filter.model, model_tables(filter.design).assume);

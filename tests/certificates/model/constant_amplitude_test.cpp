@@ -22,6 +22,9 @@ namespace veritrack::certificates {
 namespace {
 namespace constant_amplitude {  // helpers of other tests of the unit have the same names
 
+using model::FrequencySlice;
+using model::ProvedSet;
+
 constexpr double kLow = 0.985;
 constexpr double kHigh = 1.015;
 
@@ -49,7 +52,7 @@ TEST_CASE("a loop is certified at every constant amplitude of a range, part by p
       "frequency in [0.3, 0.32] rad/sample"));
   const ModelSets& sets = model_sets(certificate);
   REQUIRE(sets.assumed.has_value());
-  for (const ModelSet* set : {&sets.starts, &*sets.assumed}) {
+  for (const ProvedSet* set : {&sets.starts, &*sets.assumed}) {
     CHECK(set->is_proved());
     const std::vector<model::AmplitudePart>& parts = set->tubes.amplitudes;
     REQUIRE(parts.size() >= 2);  // half the range is 0.3 of the noise that is tolerated
@@ -70,10 +73,10 @@ TEST_CASE("a loop is certified at every constant amplitude of a range, part by p
   }
   CHECK(model_design_json(certificate.design).at("assume").at("amplitude").at("constant").size() == 2);
   // Over all frequencies something is said of bias and ripple.
-  REQUIRE_FALSE(sets.cells.empty());
-  CHECK(sets.cells.front().low <= 0.3 + 1e-9);
-  CHECK(sets.cells.back().high >= 0.32 - 1e-9);
-  for (const ModelCell& cell : sets.cells) {
+  REQUIRE_FALSE(sets.slices.empty());
+  CHECK(sets.slices.front().low <= 0.3 + 1e-9);
+  CHECK(sets.slices.back().high >= 0.32 - 1e-9);
+  for (const FrequencySlice& cell : sets.slices) {
     CHECK(rigor::is_finite(cell.bias));
     CHECK(cell.bias.lower() >= sets.starts.bias.lower());
     CHECK(cell.bias.upper() <= sets.starts.bias.upper());
@@ -84,7 +87,7 @@ TEST_CASE("a loop is certified at every constant amplitude of a range, part by p
 
 TEST_CASE("no run at a constant amplitude, from a start in the tube of its part, exceeds what is proved") {
   const ModelSets& sets = model_sets(loop());
-  const ModelSet& set = sets.assumed.value();
+  const ProvedSet& set = sets.assumed.value();
   constexpr double kNoise = 0.02;
   constexpr double kWn = 0.02;
   constexpr double kZeta = 0.7071;

@@ -82,7 +82,7 @@ TEST_CASE("bias and ripple have at most 16 rows, each with the worst of its cell
   sets.starts.tubes.tubes = {tube_at(0.31, 0.01)};
   for (int i = 0; i < 40; ++i) {
     const double low = 0.3125 + 0x1p-11 * i;
-    sets.cells.push_back(
+    sets.slices.push_back(
         {low, low + 0x1p-11, rigor::Interval::from_bounds(-0.25 * i, 0.5 * i), 0.125 * i, 1.0});
   }
   const std::string text = model_sections(with_sets(sets), kFigures);
@@ -97,10 +97,10 @@ TEST_CASE("bias and ripple have at most 16 rows, each with the worst of its cell
   CHECK(section.find("figures/bias.svg") != std::string::npos);
   // What has no cell is in no row.
   ModelSets with_gap = sets;
-  with_gap.cells.erase(with_gap.cells.begin() + 1);
+  with_gap.slices.erase(with_gap.slices.begin() + 1);
   CHECK(model_sections(with_sets(with_gap), kFigures).find("| 0.3125 to 0.312988 |") != std::string::npos);
-  sets.cells[1].bias = rigor::Interval::empty();
-  sets.cells[1].ripple = NAN;
+  sets.slices[1].bias = rigor::Interval::empty();
+  sets.slices[1].ripple = NAN;
   CHECK(model_sections(with_sets(sets), kFigures).find("| unknown | unknown |") != std::string::npos);
   sets.starts.tubes.tubes.front().levels.pop_back();
   CHECK(model_sections(with_sets(sets), kFigures).find("Nothing is known of them") != std::string::npos);

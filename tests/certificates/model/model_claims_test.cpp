@@ -13,6 +13,7 @@
 namespace veritrack::certificates {
 namespace {
 
+using model::ProvedSet;
 using rigor::Interval;
 using rigor::Verdict;
 
@@ -27,8 +28,8 @@ ripple_below = 0.003
 )";
 
 /// Sets of one tube with these numbers, which nothing has proved.
-ModelSet set_of(const char* name, double noise, double slew) {
-  ModelSet set;
+ProvedSet set_of(const char* name, double noise, double slew) {
+  ProvedSet set;
   set.tubes.name = name;
   set.tubes.noise = noise;
   set.tubes.slew = slew;
@@ -103,11 +104,11 @@ TEST_CASE("every claim is decided by its set") {
 
 TEST_CASE("where no set was proved for the assumed noise, the reason says for which it was") {
   ModelSets sets = sets_of();
-  sets.assumed = ModelSet{};
+  sets.assumed = ProvedSet{};
   sets.assumed->tubes.name = "assumed";
   sets.assumed->tubes.noise = 0.3;
   sets.assumed->tubes.reasons = {"no radius was proved for noise 0.3 between 0.3 and 0.32 rad/sample"};
-  sets.slew = ModelSet{};
+  sets.slew = ProvedSet{};
   sets.slew->tubes.name = "slew";
   sets.slew->tubes.reasons = {"no slew was proved"};
   const Certificate certificate = certificate_of(sets, text_of(kRequired));
@@ -168,7 +169,7 @@ TEST_CASE("what is not known, or not enough, is not proved") {
 }
 
 /// Proved from 0.3 to 0.3125 rad/sample only.
-void limit(ModelSet& set, double low = 0.3, double high = 0.3125) {
+void limit(ProvedSet& set, double low = 0.3, double high = 0.3125) {
   set.tubes.is_complete = false;
   set.tubes.part = {low, high};
   set.tubes.reasons = {"no radius was proved between 0.3125 and 0.32 rad/sample"};
@@ -359,7 +360,7 @@ TEST_CASE("the largest slew is that of any set for a slew, with the noise of tha
   ModelSets sets = sets_of();
   CHECK(told(sets, "model/slew-limit").statement.empty());
   sets.assumed = set_of("assumed", 0.02, 0x1p-20);
-  sets.slew = ModelSet{};
+  sets.slew = ProvedSet{};
   sets.slew->tubes.name = "slew";
   const Told of_assumed = told(sets, "model/slew-limit");
   CHECK(of_assumed.slew == "9.536e-7");
@@ -384,34 +385,6 @@ TEST_CASE("the largest slew is that of any set for a slew, with the noise of tha
   sets.slew->tubes.noise = 1.0;
   sets.noise.reset();
   CHECK(told(sets, "model/limits").noise == "0.02");
-}
-
-TEST_CASE("a band is searched as far as it can be reached") {
-  const rigor::UpwardRounding upward;
-  const SearchedBand inside = searched_band(Interval::from_bounds(0.2, 0.5), 1);
-  CHECK(inside.low == 0.2);
-  CHECK(inside.high == 0.5);
-  CHECK(inside.out_of_reach.empty());
-  const SearchedBand low = searched_band(Interval::from_bounds(0.0, 0.5), 1);
-  CHECK(low.low > 0.0);
-  CHECK(low.low < 0.01);
-  CHECK(low.high == 0.5);
-  REQUIRE(low.out_of_reach.size() == 1);
-  CHECK(low.out_of_reach.front().find("at 0 the samples are constant") != std::string::npos);
-  for (const double end : {3.1416, 3.1415926535897936}) {
-    const SearchedBand high = searched_band(Interval::from_bounds(1.0, end), 1);
-    CHECK(high.low == 1.0);
-    CHECK(high.high < 3.1415926);
-    CHECK(high.high > 3.1);
-    REQUIRE(high.out_of_reach.size() == 1);
-    CHECK(high.out_of_reach.front().find("half the sample rate") != std::string::npos);
-  }
-  CHECK(searched_band(Interval::from_bounds(0.0, 3.1416), 2).out_of_reach.size() == 2);
-  for (const Interval& none : {Interval(0.3), Interval::from_bounds(0.1, 3.2),
-                               Interval::from_bounds(-0.1, 0.2), Interval::empty()}) {
-    const SearchedBand nothing = searched_band(none, 1);
-    CHECK_FALSE(nothing.low < nothing.high);
-  }
 }
 
 TEST_CASE("a loop is certified for its design") {

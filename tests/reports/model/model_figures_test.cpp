@@ -72,7 +72,7 @@ TEST_CASE("of parts of the amplitudes the least is drawn at each frequency, in w
   const certificates::ModelSets whole = model_sets(certificate);
   const auto figures_with = [&](std::size_t least, double share) {
     certificates::ModelSets sets = whole;
-    for (certificates::ModelSet* set : {&sets.starts, &*sets.assumed}) {
+    for (model::ProvedSet* set : {&sets.starts, &*sets.assumed}) {
       std::vector<model::TubeSet> parts(3, set->tubes);
       parts[least].tubes.front().levels.front() *= share;
       set->tubes = model::join_amplitudes(parts, {{0.995, 0.999}, {0.999, 1.001}, {1.001, 1.005}});
@@ -108,7 +108,7 @@ TEST_CASE("only what is proved is drawn") {
   CHECK(figures[0].svg.find("assumed noise") == std::string::npos);
   sets.starts.tubes.is_complete = false;
   sets.starts.tubes.tubes.clear();
-  sets.cells.clear();
+  sets.slices.clear();
   certificate.particulars = sets;
   CHECK(draw_model_figures(certificate).empty());
 }

@@ -1,0 +1,47 @@
+// What is asked of a tracker over a band: its sets for starts, for the assumed noise and slew, and for as
+// much noise or slew as it tolerates.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/model/set/amplitude_parts.hpp"
+#include "analysis/model/set/searched_band.hpp"
+#include "analysis/model/set/tube_set.hpp"
+#include "analysis/rigor/interval.hpp"
+#include "analysis/search/deadline.hpp"
+
+namespace veritrack::model {
+
+/// The tracker on its tone, what is assumed, and which sets are wanted.
+struct SetQuestion {
+  TrackedTone tone;      ///< for proposals
+  TrackerModel tracker;  ///< for proofs
+  /// For an amplitude that is constant and somewhere in the range of `tracker`; otherwise empty.
+  ToneAtAmplitude tone_at = {};
+  SearchedBand band = {};                        ///< not empty
+  double noise = 0.0;                            ///< at most, signal units
+  double slew = 0.0;                             ///< at most, rad/sample per sample
+  std::vector<rigor::Interval> deviations = {};  ///< of the assumed starts from the curve, one for each state
+  bool assumes_start = false;  ///< deviations of starts are assumed: shapes are made for them
+  /// The frequency error is to be less, rad/sample.
+  std::optional<rigor::Interval> required_error = {};
+  bool largest_noise = false;  ///< how much noise is tolerated
+  bool largest_slew = false;   ///< how much slew, without noise
+  bool is_thorough = false;    ///< also what each cell tolerates, and what is expected to first order
+  /// After it nothing more is searched for; what is required is searched for first.
+  search::Deadline deadline = {};
+
+  [[nodiscard]] bool is_disturbed() const { return noise > 0.0 || slew > 0.0; }
+};
+
+/// The names of sets.
+inline constexpr const char* kStarts = "starts";
+inline constexpr const char* kAssumed = "assumed";
+inline constexpr const char* kLargestNoise = "noise";
+inline constexpr const char* kLargestSlew = "slew";
+
+/// The searches for the sets of a question, in order.
+[[nodiscard]] std::vector<SetTask> tasks_of(const SetQuestion& question);
+
+}  // namespace veritrack::model

@@ -157,16 +157,8 @@ TEST_CASE("starts that are given up: too few samples, too few steps, the unstabl
   CHECK_FALSE(prove_captured(example.problem, unstable, {1}, options).front().is_proved);
 }
 
-TEST_CASE("the edge of the section, and grids") {
+TEST_CASE("grids, and sizes that do not fit") {
   const test::CaptureExample example;
-  for (const auto& [theta, w] : edge_of_section(example.problem, kTheta, 0.5, kW, 0.01, 12)) {
-    double most = 0.0;
-    for (int j = 0; j < 64; ++j) {
-      const double phase = 2.0 * std::numbers::pi * j / 64;
-      most = std::max(most, example.level(example.start(phase, w, theta), phase));
-    }
-    CHECK(most == doctest::Approx(example.problem.level).epsilon(1e-6));
-  }
   const CaptureGrid grid = capture_grid(0, 2.0, 1, 3.0, 4);
   CHECK(grid.x == std::vector<double>{-2.0, -1.0, 0.0, 1.0, 2.0});
   CHECK(grid.y.front() == -3.0);

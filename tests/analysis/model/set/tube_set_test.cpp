@@ -8,32 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "analysis/model/moving_frequency/border.hpp"
 #include "analysis/model/moving_frequency/moving_set.hpp"
 #include "analysis/model/set/set_search.hpp"
+#include "tests/analysis/model/set/level_checks.hpp"
 #include "tests/analysis/model/tube_examples.hpp"
 
 namespace veritrack::model {
 namespace {
 
 using rigor::Verdict;
-
-/// Every level of every tube again, by the verification alone.
-void check_levels(const TrackerModel& model, const TubeSet& set) {
-  REQUIRE_FALSE(set.tubes.empty());
-  for (const ProvedTube& proved : set.tubes) {
-    CAPTURE(proved.tube.frequency);
-    const std::vector<double>& levels = proved.levels;
-    REQUIRE(proved.shrinking.size() == std::max<std::size_t>(levels.size() - 1, 1));
-    for (std::size_t j = 0; j < proved.shrinking.size(); ++j) {
-      const double scale = j + 1 < levels.size() ? levels[j + 1] / levels[j] * (1.0 - 1e-12) : 1.0;
-      CHECK(verify_level(model, proved.tube, {levels[j], set.noise, scale, proved.shrinking[j], set.slew},
-                         proved.grid)
-                .verdict == Verdict::proved);
-      CHECK((j + 1 == levels.size() || levels[j + 1] < levels[j]));
-    }
-  }
-}
 
 TEST_CASE("a set for large starts: it covers the band, and every level is one") {
   const test::Example loop(test::phase_locked_loop());
@@ -45,7 +28,7 @@ TEST_CASE("a set for large starts: it covers the band, and every level is one") 
   CHECK_FALSE(covers(set.tubes, 0.27, 0.34));
   CHECK_FALSE(covers(set.tubes, 0.28, 0.35));
   CHECK_FALSE(covers({}, 0.28, 0.34));
-  check_levels(loop.model, set);
+  test::check_levels(loop.model, set);
   // Down to what the curve is known to.
   CHECK(set.tubes.front().levels.front() > 0.011);
   CHECK(set.tubes.front().levels.back() < 2e-5 * set.tubes.front().levels.front());
@@ -66,14 +49,14 @@ TEST_CASE("sets for noise: as much as is asked, as much as is found, and none fo
   const TubeSet set = prove_set(tone, loop.model, 0.3, 0.31, task);
   REQUIRE(set.is_complete);
   CHECK(set.noise == 0.02);
-  check_levels(loop.model, set);
+  test::check_levels(loop.model, set);
   CHECK(set.tubes.front().levels.size() > 1);
   task.noise = 0.0;
   task.largest_noise = true;
   const TubeSet largest = prove_set(tone, loop.model, 0.3, 0.31, task);
   REQUIRE(largest.is_complete);
   CHECK(largest.noise > 0.04);
-  check_levels(loop.model, largest);
+  test::check_levels(loop.model, largest);
   task.largest_noise = false;
   task.noise = 1.5 * largest.noise;
   const TubeSet none = prove_set(tone, loop.model, 0.3, 0.31, task);
@@ -96,7 +79,7 @@ TEST_CASE("the search for the most finds no less than what was given, where the 
   const TubeSet noise = prove_set(tone, loop.model, 0.2, 0.3, task);
   REQUIRE(noise.is_complete);
   CHECK(noise.noise > 0.025);
-  check_levels(loop.model, noise);
+  test::check_levels(loop.model, noise);
   task = {.name = "slew", .objective = ShapeObjective::largest_slew, .slew = 1e-5, .deviations = {}};
   REQUIRE(prove_moving_set(tone, loop.model, 0.2, 0.3, task).is_complete);
   task.slew = 0.0;
@@ -104,36 +87,7 @@ TEST_CASE("the search for the most finds no less than what was given, where the 
   const TubeSet slew = prove_moving_set(tone, loop.model, 0.2, 0.3, task);
   REQUIRE(slew.is_complete);
   CHECK(slew.slew > 2e-5);
-  check_levels(loop.model, slew);
-}
-
-TEST_CASE("sets for a frequency that moves have equal levels, and their borders are proved") {
-  const test::Example loop(test::phase_locked_loop());
-  const TrackedTone tone = test::tone_of(loop.tracker);
-  SetTask task{.name = "assumed",
-               .objective = ShapeObjective::largest_noise,
-               .noise = 0.01,
-               .slew = 1e-5,
-               .deviations = {}};
-  const TubeSet set = prove_moving_set(tone, loop.model, 0.2, 0.4, task);
-  REQUIRE(set.is_complete);
-  CHECK(set.slew == 1e-5);
-  REQUIRE(set.tubes.size() > 1);
-  check_levels(loop.model, set);
-  REQUIRE(set.crossing.size() == set.tubes.front().shrinking.size());
-  for (std::size_t i = 0; i + 1 < set.tubes.size(); ++i) {
-    CHECK(set.tubes[i].levels == set.tubes[i + 1].levels);
-    for (std::size_t j = 0; j < set.crossing.size(); ++j) {
-      CHECK(set.crossing[j] < 1.0);
-      const double radius = set.tubes[i].levels[j];
-      const BorderQuestion question{set.tubes[i].shrinking[j] * radius, set.crossing[j] * radius, set.slew,
-                                    1.0};
-      CHECK(verify_border(loop.model, set.tubes[i].tube, set.tubes[i + 1].tube, question, {}).verdict ==
-            Verdict::proved);
-    }
-  }
-  task.slew = 1e-3;
-  CHECK_FALSE(prove_moving_set(tone, loop.model, 0.2, 0.4, task).is_complete);
+  test::check_levels(loop.model, slew);
 }
 
 TEST_CASE("what each cell tolerates on its own: at least what the set does, and that is proved") {
@@ -147,7 +101,7 @@ TEST_CASE("what each cell tolerates on its own: at least what the set does, and 
   const TubeSet noise = prove_set(tone, loop.model, 0.2, 0.4, task);
   REQUIRE(noise.is_complete);
   REQUIRE(noise.tubes.size() > 1);
-  check_levels(loop.model, noise);
+  test::check_levels(loop.model, noise);
   double least = INFINITY;
   double most = 0.0;
   for (const ProvedTube& proved : noise.tubes) {
@@ -173,39 +127,6 @@ TEST_CASE("what each cell tolerates on its own: at least what the set does, and 
   // Without being asked, nothing is said of single cells.
   task.of_each_cell = false;
   CHECK(prove_moving_set(tone, loop.model, 0.3, 0.31, task).tubes.front().own_slew == 0.0);
-}
-
-TEST_CASE("a moving set tells how far it is") {
-  const test::Example loop(test::phase_locked_loop());
-  const TrackedTone tone = test::tone_of(loop.tracker);
-  const SetTask task{.name = "assumed",
-                     .objective = ShapeObjective::largest_noise,
-                     .noise = 0.01,
-                     .slew = 1e-5,
-                     .deviations = {}};
-  std::vector<double> told;
-  (void)prove_moving_set(tone, loop.model, 0.25, 0.3, task, [&](double share) { told.push_back(share); });
-  REQUIRE(told.size() >= 3);
-  CHECK(std::is_sorted(told.begin(), told.end()));
-  CHECK(told.front() > 0.0);
-  CHECK(told.front() < 1.0);
-  CHECK(told.back() == 1.0);
-}
-
-TEST_CASE("where a tracker locks over a part of the band only, the largest slew is found there") {
-  test::Example loop(test::phase_locked_loop());
-  TrackedTone tone = test::tone_of(loop.tracker);
-  // From 0.39 on it begins nowhere.
-  tone.start = [](double omega) { return std::vector<double>{omega < 0.39 ? omega : std::nan(""), 0.0}; };
-  const SetTask task{
-      .name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}};
-  const TubeSet set = prove_moving_set(tone, loop.model, 0.3, 0.5, task);
-  CHECK_FALSE(set.is_complete);
-  CHECK_FALSE(set.reasons.empty());
-  REQUIRE_FALSE(set.tubes.empty());
-  CHECK(set.slew > 1e-5);
-  CHECK(set.part.low == 0.3);
-  CHECK(set.part.high < 0.45);
 }
 
 /// The loop with a limit of 0.6 on its detector, whose values reach 0.5 in lock.

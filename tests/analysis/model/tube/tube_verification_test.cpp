@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "analysis/model/step/place_store.hpp"
-#include "analysis/model/tube/angle_check.hpp"
 #include "analysis/model/tube/tube_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/model/tube_examples.hpp"
@@ -20,11 +19,8 @@
 namespace veritrack::model {
 namespace {
 
-using rigor::Interval;
 using rigor::Verdict;
 using test::Example;
-using trackers::Operation;
-using trackers::StraightLineProgram;
 
 Tube proposed(const Example& example, double frequency, double half_width, ShapeObjective objective) {
   TubeSettings settings;
@@ -256,32 +252,6 @@ TEST_CASE("the coarsest grid is fine enough where it is tried, and the next coar
   VerificationBudget late = first;
   late.deadline = search::Deadline(0.0);
   CHECK_FALSE(coarsest_grid(loop.model, tube, question, late, kMost).has_value());
-}
-
-TEST_CASE("whole turns: what depends on them, and what does not") {
-  const rigor::UpwardRounding upward;
-  const Example loop(test::phase_locked_loop());
-  CHECK(angle_objection(loop.tracker.recursion, loop.model.constants).empty());
-  // The frequency estimate must not see them.
-  trackers::Recursion changed = loop.tracker.recursion;
-  changed.frequency = test::frequency_of_state(2, 2, 1);
-  CHECK(angle_objection(changed, loop.model.constants) == "the frequency depends on whole turns of an angle");
-  // An angle that is treated as a number.
-  changed = loop.tracker.recursion;
-  changed.is_angle = {true, true};
-  CHECK_FALSE(angle_objection(changed, loop.model.constants).empty());
-  changed.is_angle = {false, false};
-  CHECK(angle_objection(changed, loop.model.constants).empty());
-  CHECK(is_periodic(loop.signal, loop.model.constants));
-  StraightLineProgram ramp(4);
-  ramp.add_result(3);
-  CHECK_FALSE(is_periodic(ramp, loop.model.constants));
-  StraightLineProgram half(5);
-  half.add_result(half.append(Operation::sin, half.append(Operation::multiply, 2, 4)));
-  CHECK_FALSE(is_periodic(half, {Interval(1.0), Interval(1.0), Interval(0.5)}));
-  CHECK(is_periodic(half, {Interval(1.0), Interval(1.0), Interval(3.0)}));
-  StraightLineProgram none(4);
-  CHECK_FALSE(is_periodic(none, loop.model.constants));
 }
 
 }  // namespace

@@ -1,16 +1,15 @@
 #include "analysis/dft_block/block_lock.hpp"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/derivatives.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/linear_solve.hpp"
 #include "analysis/rigor/norms.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
+#include "analysis/rigor/spectral_radius.hpp"
 
 namespace veritrack::dft_block {
 
@@ -76,11 +75,8 @@ std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates
     sum = (sum + power.transpose() * sum * power).eval();
     power = (power * power).eval();
   }
-  const Eigen::LLT<rigor::Matrix<kStates>> root(sum);
-  if (root.info() != Eigen::Success || !sum.allFinite()) {
-    return std::nullopt;
-  }
-  return rigor::Matrix<kStates>(root.matrixU());
+  const auto root = rigor::cholesky(sum);
+  return root ? std::optional<rigor::Matrix<kStates>>(rigor::transposed(*root)) : std::nullopt;
 }
 
 /// Where the run ends; none when it does not.

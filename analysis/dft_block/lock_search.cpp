@@ -1,6 +1,5 @@
 #include "analysis/dft_block/lock_search.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -8,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 #include "trackers/dft_block/dft_block_ekf.hpp"
 
 namespace veritrack::dft_block {
@@ -39,6 +38,12 @@ PointMatrix next_covariance(const PointMatrix& p, const PointMatrix& information
 
 double smallest_eigenvalue(const PointMatrix& a) {
   return rigor::least_eigenvalue(PointMatrix(0.5 * (a + a.transpose())));
+}
+
+/// L with L L' = a; not a number where there is none.
+PointMatrix root_of(const PointMatrix& a) {
+  return rigor::cholesky(a).value_or(
+      rigor::SmallMatrix::Constant(3, 3, std::numeric_limits<double>::quiet_NaN()));
 }
 
 /// Directions on the sphere, well spread.
@@ -77,14 +82,16 @@ double growth_of(const std::vector<DriftSample>& samples, double weight) {
     const PointMatrix seen = one.factor.transpose() * one.spread;
     Matrix6 right;
     right << unit - one.turned / weight, one.gain, one.gain.transpose(), unit - weight * seen * one.factor;
-    const Eigen::LLT<Matrix6> root(right);
-    if (root.info() != Eigen::Success) {
+    const auto root = rigor::cholesky(right);
+    if (!root) {
       return std::numeric_limits<double>::infinity();
     }
-    Eigen::Matrix<double, 6, 3> below;
-    below << one.step, weight * seen * one.secant;
+    const PointMatrix carried = seen * one.secant;
+    const rigor::SmallMatrix below =
+        rigor::lower_solution(*root, rigor::stacked(one.step, PointMatrix(weight * carried)));
     const PointMatrix all =
-        weight * one.secant.transpose() * one.spread * one.secant + below.transpose() * root.solve(below);
+        rigor::combination(weight, PointMatrix(one.secant.transpose() * one.spread * one.secant), 1.0,
+                           rigor::product(rigor::transposed(below), below));
     most = std::max(most, -smallest_eigenvalue(-all));
   }
   return most;
@@ -146,7 +153,7 @@ LockSearch::LockSearch(const LockProblem& problem)
       break;
     }
   }
-  frame_ = Eigen::LLT<PointMatrix>(steady_).matrixL();
+  frame_ = root_of(steady_);
 }
 
 PointMatrix LockSearch::process_noise(double amplitude) const {
@@ -328,7 +335,7 @@ std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius
     const PointMatrix centre = 0.5 * (high + low);
     const PointMatrix spread = 0.5 * (high - low);
     const PointMatrix secant_here = frame_.transpose() * secant(amplitude, error, offset) * frame_;
-    const PointMatrix root = Eigen::LLT<PointMatrix>(j).matrixL();
+    const PointMatrix root = root_of(j);
     const PointMatrix factor = std::sqrt(tilt) * root;
     return DriftSample{
         turn * (unit - centre * secant_here), secant_here, factor, turn * centre * factor, spread,

@@ -6,6 +6,7 @@
 #include "analysis/dft_block/lock_matrices.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/linear_solve.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::dft_block {
 
@@ -14,6 +15,28 @@ namespace {
 using rigor::Interval;
 using Matrix3 = rigor::IntervalMatrix<3>;
 using Vector3 = rigor::IntervalVector<3>;
+using OffsetCell = rigor::IntervalVector<5>;  ///< errors, offset and amplitude
+
+/// Divided where the information changes most; nothing when no double lies between the ends.
+std::optional<std::array<OffsetCell, 2>> halves_of(const OffsetCell& cell) {
+  const std::array weights{4.0, 0.5, 1.3, 1.3, 2.0 / cell(4).lower()};
+  int widest = 0;
+  for (int i = 1; i < 5; ++i) {
+    if (weights[static_cast<std::size_t>(i)] * width(cell(i)) >
+        weights[static_cast<std::size_t>(widest)] * width(cell(widest))) {
+      widest = i;
+    }
+  }
+  const Interval& side = cell(widest);
+  const double middle = midpoint(side);
+  if (!(side.lower() < middle && middle < side.upper())) {
+    return std::nullopt;
+  }
+  std::array<OffsetCell, 2> halves{cell, cell};
+  halves[0](widest) = Interval::from_bounds(side.lower(), middle);
+  halves[1](widest) = Interval::from_bounds(middle, side.upper());
+  return halves;
+}
 
 }  // namespace
 
@@ -208,38 +231,13 @@ bool LockFrame::verify_cells(double radius, std::int64_t most_cells,
   if (!rigor::is_finite(whole) || !rigor::certainly_positive(problem_.amplitude)) {
     return false;
   }
-  std::vector<Cell> open{whole};
-  std::int64_t cells = 0;
-  while (!open.empty()) {
-    const Cell cell = open.back();
-    open.pop_back();
-    if (++cells > most_cells) {
-      return false;
-    }
+  const auto look = [&](const Cell& cell) -> search::CellLook<Cell> {
     if (is_outside(cell, radius) || is_verified(cell)) {
-      continue;
+      return {true};
     }
-    // The direction along which the information changes most.
-    const std::array weights{4.0, 0.5, 1.3, 1.3, 2.0 / cell(4).lower()};
-    int widest = 0;
-    for (int i = 1; i < 5; ++i) {
-      if (weights[static_cast<std::size_t>(i)] * width(cell(i)) >
-          weights[static_cast<std::size_t>(widest)] * width(cell(widest))) {
-        widest = i;
-      }
-    }
-    const Interval& side = cell(widest);
-    const double middle = midpoint(side);
-    if (!(side.lower() < middle && middle < side.upper())) {
-      return false;
-    }
-    for (const Interval& part :
-         {Interval::from_bounds(side.lower(), middle), Interval::from_bounds(middle, side.upper())}) {
-      open.push_back(cell);
-      open.back()(widest) = part;
-    }
-  }
-  return true;
+    return {false, halves_of(cell)};
+  };
+  return search::cover_by_bisection(whole, most_cells, look).is_proved;
 }
 
 }  // namespace veritrack::dft_block

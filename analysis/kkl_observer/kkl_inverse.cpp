@@ -6,7 +6,7 @@
 #include "analysis/kkl_observer/kkl_claim_parts.hpp"
 #include "analysis/kkl_observer/number_of_filters.hpp"
 #include "analysis/rigor/decimal.hpp"
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
 namespace veritrack::kkl_observer {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/eigenvalues.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::rigor::detail {
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/norms.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::rigor::detail {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::rigor::detail {
 

@@ -214,31 +214,65 @@ std::size_t ModelMap::longest() const {
   return most;
 }
 
+namespace {
+
+/// Throws RequestError for what has no map.
+void require_mappable(const ModelTables& tables, const Model& model, const ModelMapRequest& request) {
+  if (model.states.size() > kMostMappedStates || model.states.size() < 2) {
+    throw RequestError(fmt::format("{} states; a map follows starts of at least 2 and at most {} states",
+                                   model.states.size(), kMostMappedStates),
+                       tables.model.ekf ? "model.ekf.states" : "model.states");
+  }
+  if (is_constant_in_range(tables.assume)) {
+    throw RequestError(
+        "a constant amplitude in a range: a map is for the tubes of one part of the range; allowed: one "
+        "amplitude, or [least, largest] of amplitudes that may differ from sample to sample",
+        "assume.amplitude");
+  }
+  if (request.with_noise && tables.assume.gaussian) {
+    throw RequestError(
+        "--noise: Gaussian noise has no bound; allowed: a map without noise, or a design whose noise has a "
+        "bound",
+        "assume.noise");
+  }
+}
+
+/// Simulated, and those that lock proved.
+void follow_starts(ModelMap& map, const model::CaptureProblem& problem, const search::Deadline& deadline,
+                   const CertifyProgress& progress) {
+  constexpr int kSimulatedPhases = 8;
+  map.simulated_samples = 10'000;
+  map.simulated = model::simulate_starts(problem, map.grid, kSimulatedPhases, map.simulated_samples);
+  std::vector<char> wanted(map.grid.cells(), 0);
+  for (std::size_t cell = 0; cell < wanted.size(); ++cell) {
+    wanted[cell] = map.simulated.locks(cell) ? 1 : 0;  // the others would only take time
+  }
+  model::CaptureOptions options;
+  options.most_samples = std::min<std::size_t>(2 * map.simulated.longest + 64, 6'000);
+  options.most_steps = 40'000;
+  options.rings = 3;
+  options.deadline = deadline;
+  constexpr double kTolerance = 0.05;
+  options.tolerance = kTolerance * (1.0 - map.tube.shrinking.back());
+  const auto report = [&](double share) {
+    if (progress) {
+      progress({share, 0.0, 0});
+    }
+  };
+  map.cells = model::prove_captured(problem, map.grid, wanted, options, report);
+}
+
+}  // namespace
+
 ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
                          const CertifyProgress& progress) {
   const rigor::UpwardRounding upward;
   const ModelTables& tables = model_tables(design);
   const ModelAssumptions& assume = tables.assume;
   const Model model = make_model(tables.model, assume.signal);
-  if (model.states.size() > kMostMappedStates || model.states.size() < 2) {
-    throw RequestError(fmt::format("{} states; a map follows starts of at least 2 and at most {} states",
-                                   model.states.size(), kMostMappedStates),
-                       tables.model.ekf ? "model.ekf.states" : "model.states");
-  }
-  if (is_constant_in_range(assume)) {
-    throw RequestError(
-        "a constant amplitude in a range: a map is for the tubes of one part of the range; allowed: one "
-        "amplitude, or [least, largest] of amplitudes that may differ from sample to sample",
-        "assume.amplitude");
-  }
+  require_mappable(tables, model, request);
   ModelMap map;
   choose_frequency(map, assume, request);
-  if (request.with_noise && assume.gaussian) {
-    throw RequestError(
-        "--noise: Gaussian noise has no bound; allowed: a map without noise, or a design whose noise has a "
-        "bound",
-        "assume.noise");
-  }
   map.noise = request.with_noise ? assume.noise.value.upper() : 0.0;
   const std::array<std::size_t, 2> states = mapped_states(model, request);
   const model::TrackerModel tracker = proved_model(model, assume);
@@ -276,26 +310,7 @@ ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
   constexpr int kDefaultCells = 21;
   map.grid =
       model::capture_grid(states[0], x_range, states[1], y_range, request.cells.value_or(kDefaultCells));
-  constexpr int kSimulatedPhases = 8;
-  map.simulated_samples = 10'000;
-  map.simulated = model::simulate_starts(problem, map.grid, kSimulatedPhases, map.simulated_samples);
-  std::vector<char> wanted(map.grid.cells(), 0);
-  for (std::size_t cell = 0; cell < wanted.size(); ++cell) {
-    wanted[cell] = map.simulated.locks(cell) ? 1 : 0;  // the others would only take time
-  }
-  model::CaptureOptions options;
-  options.most_samples = std::min<std::size_t>(2 * map.simulated.longest + 64, 6'000);
-  options.most_steps = 40'000;
-  options.rings = 3;
-  options.deadline = request.deadline;
-  constexpr double kTolerance = 0.05;
-  options.tolerance = kTolerance * (1.0 - map.tube.shrinking.back());
-  const auto tell = [&](double share) {
-    if (progress) {
-      progress({share, 0.0, 0});
-    }
-  };
-  map.cells = model::prove_captured(problem, map.grid, wanted, options, tell);
+  follow_starts(map, problem, request.deadline, progress);
   const model::ErrorGrid grid;
   map.frequency_error =
       size_of_range(bound_errors(tracker, map.tube.tube, map.tube.levels.front(), grid).error);

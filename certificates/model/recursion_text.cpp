@@ -34,93 +34,17 @@ const Dialect& dialect_of(CodeLanguage language) {
                        [&](const Dialect& dialect) { return dialect.language == language; });
 }
 
-/// Names that some language keeps for itself, or that the code around the formulas uses.
-const std::set<std::string_view>& taken_names() {
-  static const std::set<std::string_view> names{"auto",
-                                                "break",
-                                                "case",
-                                                "char",
-                                                "const",
-                                                "continue",
-                                                "default",
-                                                "do",
-                                                "double",
-                                                "else",
-                                                "enum",
-                                                "extern",
-                                                "float",
-                                                "for",
-                                                "goto",
-                                                "if",
-                                                "int",
-                                                "long",
-                                                "register",
-                                                "return",
-                                                "short",
-                                                "signed",
-                                                "sizeof",
-                                                "static",
-                                                "struct",
-                                                "switch",
-                                                "typedef",
-                                                "union",
-                                                "unsigned",
-                                                "void",
-                                                "volatile",
-                                                "while",
-                                                "inline",
-                                                "restrict",
-                                                "and",
-                                                "as",
-                                                "assert",
-                                                "async",
-                                                "await",
-                                                "class",
-                                                "def",
-                                                "del",
-                                                "elif",
-                                                "except",
-                                                "finally",
-                                                "from",
-                                                "global",
-                                                "import",
-                                                "in",
-                                                "is",
-                                                "lambda",
-                                                "nonlocal",
-                                                "not",
-                                                "or",
-                                                "pass",
-                                                "raise",
-                                                "try",
-                                                "with",
-                                                "yield",
-                                                "None",
-                                                "True",
-                                                "False",
-                                                "end",
-                                                "endif",
-                                                "function",
-                                                "endfunction",
-                                                "math",
-                                                "state",
-                                                "sample",
-                                                "next",
-                                                "power",
-                                                "state_next",
-                                                "amplitude",
-                                                "frequency",
-                                                "tracker_step",
-                                                "tracker_frequency",
-                                                "tracker_start",
-                                                "j0",
-                                                "j1",
-                                                "jn",
-                                                "y0",
-                                                "y1",
-                                                "yn",
-                                                "gamma"};
-  return names;
+/// Names that some language keeps for itself, or that the code around the formulas uses, each between spaces.
+constexpr std::string_view kTakenNames =
+    " auto break case char const continue default do double else enum extern float for goto if int "
+    "long register return short signed sizeof static struct switch typedef union unsigned void "
+    "volatile while inline restrict and as assert async await class def del elif except finally from "
+    "global import in is lambda nonlocal not or pass raise try with yield None True False end endif "
+    "function endfunction math state sample next power state_next amplitude frequency tracker_step "
+    "tracker_frequency tracker_start j0 j1 jn y0 y1 yn gamma ";
+
+bool is_taken(const std::string& name) {
+  return kTakenNames.find(" " + name + " ") != std::string_view::npos;
 }
 
 /// Identifiers for the names of a model, each different: `alpha'` becomes alpha_next, `P.x.y` P_x_y.
@@ -141,7 +65,7 @@ class Identifiers {
     if (identifier.back() == '\'') {
       identifier.replace(identifier.size() - 1, 1, "_next");
     }
-    while (taken_names().contains(identifier) || !used_.insert(identifier).second) {
+    while (is_taken(identifier) || !used_.insert(identifier).second) {
       identifier += "_";
     }
     known_[name] = identifier;

@@ -36,6 +36,8 @@ bool moves_on(const TrackedModel& model) {
 
 Repeats::Repeats(const Ball& value) {
   const double near = value.near();
+  // cannot bind (value, near): what is only about a whole number would count as one, and the distance that
+  // follows would be shorter.
   if (certainly_equal(value, Ball(near)) && std::floor(near) == near && std::abs(near) <= 1000.0) {
     whole_ = std::labs(static_cast<long>(near));
   }

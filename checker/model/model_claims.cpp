@@ -406,6 +406,7 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   bool certain =
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
   if (const Tree* settled = claim.find("settled_frequency_error")) {
+    // cannot bind (bound): it decides only whether the sentence also says what is claimed, and checked below.
     if (certainly_less(written(claim, "settled_frequency_error"), bound)) {
       found.statement += ", and at or below " + units_.at_most(settled->text()) + " in the long run";
     }

@@ -116,6 +116,9 @@ class ModelRecursion {
     return results(std::move(variables));
   }
   template <typename Scalar>
+  [[nodiscard]] std::vector<std::vector<Scalar>> predicted_covariance(
+      const std::vector<std::vector<Scalar>>& f, const std::vector<std::vector<Scalar>>& p) const;
+  template <typename Scalar>
   [[nodiscard]] std::vector<Scalar> next_of_filter(const std::vector<Scalar>& state,
                                                    const std::vector<Scalar>& sample) const;
 
@@ -187,6 +190,47 @@ ModelRecursion::FilterParts<Scalar> ModelRecursion::filter_parts(const std::vect
   return parts;
 }
 
+/// The inverse of a matrix of one or two rows.
+template <typename Scalar>
+std::vector<std::vector<Scalar>> inverse_of_one_or_two(const std::vector<std::vector<Scalar>>& s) {
+  if (s.size() == 1) {
+    return {{Scalar(Ball(1.0)) / s[0][0]}};
+  }
+  const Scalar determinant = s[0][0] * s[1][1] - s[0][1] * s[1][0];
+  return {{s[1][1] / determinant, -s[0][1] / determinant}, {-s[1][0] / determinant, s[0][0] / determinant}};
+}
+
+/// F P F' + Q.
+template <typename Scalar>
+std::vector<std::vector<Scalar>> ModelRecursion::predicted_covariance(
+    const std::vector<std::vector<Scalar>>& f, const std::vector<std::vector<Scalar>>& p) const {
+  const std::size_t n = f.size();
+  const Scalar nothing(Ball(0.0));
+  // F P first: its sums are of fewer terms, and their bounds are sharper, than those of all products of
+  // three.
+  std::vector<std::vector<Scalar>> f_p(n, std::vector<Scalar>(n, nothing));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t l = 0; l < n; ++l) {
+      for (std::size_t k = 0; k < n; ++k) {
+        f_p[i][l] = f_p[i][l] + f[i][k] * p[k][l];
+      }
+    }
+  }
+  const std::vector<Scalar> none;
+  std::vector<std::vector<Scalar>> predicted(n, std::vector<Scalar>(n, nothing));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i; j < n; ++j) {
+      Scalar sum = nothing;
+      for (std::size_t l = 0; l < n; ++l) {
+        sum = sum + f_p[i][l] * f[j][l];
+      }
+      predicted[i][j] = sum + value(process_noise_[i][j], none);
+      predicted[j][i] = sum + value(process_noise_[j][i], none);
+    }
+  }
+  return predicted;
+}
+
 template <typename Scalar>
 std::vector<Scalar> ModelRecursion::next_of_filter(const std::vector<Scalar>& state,
                                                    const std::vector<Scalar>& sample) const {
@@ -216,27 +260,7 @@ std::vector<Scalar> ModelRecursion::next_of_filter(const std::vector<Scalar>& st
     }
   }
   const std::vector<Scalar> none;
-  // F P first: its sums are of fewer terms, and their bounds are sharper, than those of all products of
-  // three.
-  Rows f_p = square_matrix(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t l = 0; l < n; ++l) {
-      for (std::size_t k = 0; k < n; ++k) {
-        f_p[i][l] = f_p[i][l] + f[i][k] * p[k][l];
-      }
-    }
-  }
-  Rows predicted_p = square_matrix(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i; j < n; ++j) {
-      Scalar sum = nothing;
-      for (std::size_t l = 0; l < n; ++l) {
-        sum = sum + f_p[i][l] * f[j][l];
-      }
-      predicted_p[i][j] = sum + value(process_noise_[i][j], none);
-      predicted_p[j][i] = sum + value(process_noise_[j][i], none);
-    }
-  }
+  const Rows predicted_p = predicted_covariance(f, p);
   std::vector<Scalar> predicted_estimate;
   predicted_estimate.reserve(predicted.size());
   for (const Jet<Scalar>& each : predicted) {
@@ -262,15 +286,7 @@ std::vector<Scalar> ModelRecursion::next_of_filter(const std::vector<Scalar>& st
       }
     }
   }
-  Rows inverse = square_matrix(channels);
-  if (channels == 1) {
-    inverse[0][0] = Scalar(Ball(1.0)) / innovation_p[0][0];
-  } else {
-    const Scalar determinant =
-        innovation_p[0][0] * innovation_p[1][1] - innovation_p[0][1] * innovation_p[1][0];
-    inverse = {{innovation_p[1][1] / determinant, -innovation_p[0][1] / determinant},
-               {-innovation_p[1][0] / determinant, innovation_p[0][0] / determinant}};
-  }
+  const Rows inverse = inverse_of_one_or_two(innovation_p);
   Rows gain(n, std::vector<Scalar>(channels, nothing));
   std::vector<Scalar> next = predicted_estimate;
   for (std::size_t i = 0; i < n; ++i) {

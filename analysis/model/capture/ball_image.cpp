@@ -6,9 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::model {
 

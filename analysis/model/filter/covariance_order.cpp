@@ -1,13 +1,12 @@
 #include "analysis/model/filter/covariance_order.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::model {
@@ -55,13 +54,11 @@ bool is_zero(const BallMatrix& matrix) {
 /// largest; in floating point.
 template <typename Matrix>
 double best_logarithm(double highest, const Eigen::MatrixXd& size, const Matrix& matrix_at) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(size);
+  const auto factor = rigor::cholesky(size);
   const auto cost = [&](double logarithm) {
-    Eigen::MatrixXd matrix = matrix_at(std::exp(logarithm));
-    factor.matrixL().solveInPlace(matrix);
-    matrix.transposeInPlace();
-    factor.matrixL().solveInPlace(matrix);
-    const double least = rigor::least_eigenvalue(matrix);
+    const double least =
+        factor ? rigor::least_eigenvalue(rigor::in_units_of(*factor, matrix_at(std::exp(logarithm))))
+               : std::numeric_limits<double>::quiet_NaN();
     return std::isfinite(least) ? -least : std::numeric_limits<double>::max();
   };
   constexpr int kSteps = 20;

@@ -2,19 +2,17 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 
+#include "analysis/model/filter/filter_fit.hpp"
 #include "analysis/model/filter/filter_long_run.hpp"
 #include "analysis/model/filter/filter_search.hpp"
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::model {
 
@@ -25,10 +23,12 @@ using detail::FilterOrbit;
 using detail::FilterParameters;
 using detail::FilterSearch;
 using detail::FilterWorth;
-using detail::kSlack;
 using detail::LongRunSearch;
+using detail::matrix_of_triangle;
 using detail::memory_of;
+using detail::PhaseFit;
 using detail::Surroundings;
+using detail::triangle_of;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
@@ -38,32 +38,6 @@ using Eigen::VectorXd;
 struct FilterOnGrid {
   MatrixXd low, high, shape;
 };
-
-VectorXd triangle_of(const MatrixXd& matrix) {
-  const Index n = matrix.rows();
-  VectorXd entries(n * (n + 1) / 2);
-  Index place = 0;
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = 0; j <= i; ++j) {
-      entries[place++] = matrix(i, j);
-    }
-  }
-  return entries;
-}
-
-MatrixXd matrix_of_triangle(const VectorXd& entries, Index n, bool is_symmetric) {
-  MatrixXd matrix = MatrixXd::Zero(n, n);
-  Index place = 0;
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = 0; j <= i; ++j) {
-      matrix(i, j) = entries[place++];
-      if (is_symmetric) {
-        matrix(j, i) = matrix(i, j);
-      }
-    }
-  }
-  return matrix;
-}
 
 std::optional<FilterOnGrid> on_grid(const TrackedTone& tone, const NodeCurve& curve,
                                     const FilterParameters& parameters, int memory, int phases,
@@ -85,150 +59,146 @@ std::optional<FilterOnGrid> on_grid(const TrackedTone& tone, const NodeCurve& cu
     const FilterOnOrbit& here = orbit.here();
     grid.low.col(j) = triangle_of(here.low);
     grid.high.col(j) = triangle_of(here.high);
-    const MatrixXd root = Eigen::LLT<detail::Small>(here.shape).matrixL();
-    grid.shape.col(j) = triangle_of(root);
+    const auto root = rigor::cholesky(here.shape);
+    if (!root) {
+      is_known[static_cast<std::size_t>(j)] = 0;
+      return;
+    }
+    grid.shape.col(j) = triangle_of(*root);
   });
   const bool all = std::all_of(is_known.begin(), is_known.end(), [](char known) { return known != 0; });
   return all && grid.low.allFinite() && grid.high.allFinite() && grid.shape.allFinite() ? std::optional(grid)
                                                                                         : std::nullopt;
 }
 
-/// Coefficients of z^d, rows x harmonics.
-using Fit = std::array<MatrixXcd, kNodes>;
-
-Fit fit_of(const std::array<MatrixXd, kNodes>& values, int harmonics, double scale) {
-  std::array<MatrixXcd, kNodes> at_nodes;
-  for (std::size_t j = 0; j < at_nodes.size(); ++j) {
-    at_nodes.at(j) = harmonics_of(values.at(j), harmonics) * scale;
-  }
-  Fit fit;
-  for (int d = 0; d < kNodes; ++d) {
-    MatrixXcd sum = MatrixXcd::Zero(at_nodes[0].rows(), at_nodes[0].cols());
-    for (int j = 0; j < kNodes; ++j) {
-      sum += node_weights()(d, j) * at_nodes.at(static_cast<std::size_t>(j));
-    }
-    const double size = at_nodes[0].cwiseAbs().maxCoeff();
-    constexpr double kNegligible = 1e-7;
-    for (Index i = 0; i < sum.size(); ++i) {
-      std::complex<double>& c = sum(i);
-      c = std::abs(c) < kNegligible * size
-              ? 0.0
-              : std::complex<double>(static_cast<float>(c.real()), static_cast<float>(c.imag()));
-    }
-    fit.at(static_cast<std::size_t>(d)) = sum;
-  }
-  return fit;
-}
-
-VectorXd value_of(const Fit& fit, double z, double phase) {
-  MatrixXcd harmonics = fit.back();
-  for (int d = kNodes - 2; d >= 0; --d) {
-    harmonics = (harmonics * z + fit.at(static_cast<std::size_t>(d))).eval();
-  }
-  return value_at(harmonics, phase);
-}
-
-std::vector<PhaseSeries> series_of_fit(const Fit& fit) {
-  std::vector<PhaseSeries> all;
-  for (Index row = 0; row < fit[0].rows(); ++row) {
-    PhaseSeries series;
-    series.coefficients.resize(static_cast<std::size_t>(fit[0].cols()));
-    for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
-      auto& powers = series.coefficients[h];
-      for (const MatrixXcd& matrix : fit) {
-        powers.push_back(matrix(row, static_cast<Index>(h)));
-      }
-      while (!powers.empty() && powers.back() == 0.0) {
-        powers.pop_back();
-      }
-    }
-    while (!series.coefficients.empty() && series.coefficients.back().empty()) {
-      series.coefficients.pop_back();
-    }
-    all.push_back(std::move(series));
-  }
-  return all;
-}
-
 /// |L^-1 (a - b) L^-T| for L L' = b: how far a is from b in units of b.
 double mismatch(const MatrixXd& a, const MatrixXd& b) {
-  const Eigen::LLT<MatrixXd> root(b);
-  if (root.info() != Eigen::Success) {
+  const auto root = rigor::cholesky(b);
+  if (!root) {
     return std::numeric_limits<double>::infinity();
   }
-  MatrixXd difference = root.matrixL().solve(a - b);
-  difference = root.matrixL().solve(difference.transpose()).eval();
-  return rigor::largest_absolute_eigenvalue(difference);
+  return rigor::largest_absolute_eigenvalue(rigor::in_units_of(*root, rigor::combination(1.0, a, -1.0, b)));
+}
+
+/// The matrices of a tube as series.
+struct FilterFits {
+  PhaseFit low, high, shape;
+};
+
+/// The grids of a cell: at the nodes, and between them to judge.
+class FilterGrids {
+ public:
+  FilterGrids(const TrackedTone& tone, const CurveFit& curve, const FilterParameters& parameters, int memory,
+              const Surroundings& around)
+      : tone_(&tone), curve_(&curve), parameters_(&parameters), memory_(memory), around_(around) {}
+  /// False when there is no tube on one of them.
+  [[nodiscard]] bool compute(int most_harmonics) {
+    for (std::size_t j = 0; j < low_.size(); ++j) {
+      const auto grid = at(node_places().at(j), 2 * most_harmonics + 1);
+      if (!grid) {
+        return false;
+      }
+      low_.at(j) = grid->low;
+      high_.at(j) = grid->high;
+      shape_.at(j) = grid->shape;
+    }
+    for (const double z : {-1.0, 0.0, 0.6, 1.0}) {
+      auto grid = at(z, 31);
+      if (!grid) {
+        return false;
+      }
+      judges_.emplace_back(z, *std::move(grid));
+    }
+    return true;
+  }
+  [[nodiscard]] FilterFits fits(int harmonics, double scale) const {
+    return {detail::fit_of(low_, harmonics, 1.0), detail::fit_of(high_, harmonics, 1.0),
+            detail::fit_of(shape_, harmonics, scale)};
+  }
+  /// How much they lose between the nodes, in units of what they may lose.
+  [[nodiscard]] double loss_of(const FilterFits& fits, double scale) const {
+    double worst = 0.0;
+    for (const auto& [z, exact] : judges_) {
+      for (Index j = 0; j < exact.low.cols(); ++j) {
+        const double phase =
+            2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(exact.low.cols());
+        const auto matrix_in = [n = tone_->filter->states, z, phase](const PhaseFit& fit, bool is_symmetric) {
+          return matrix_of_triangle(detail::value_of(fit, z, phase), n, is_symmetric);
+        };
+        const auto exact_of = [n = tone_->filter->states, j](const MatrixXd& grid, bool is_symmetric) {
+          return matrix_of_triangle(grid.col(j), n, is_symmetric);
+        };
+        const MatrixXd u = matrix_in(fits.shape, false);
+        const MatrixXd exact_u = exact_of(exact.shape, false) * scale;
+        constexpr double kOfBounds = 0.2 * detail::kSlack;
+        constexpr double kOfShape = 0.01;
+        worst = std::max(
+            {worst, mismatch(matrix_in(fits.low, true), exact_of(exact.low, true)) / kOfBounds,
+             mismatch(matrix_in(fits.high, true), exact_of(exact.high, true)) / kOfBounds,
+             mismatch(rigor::product_with_transpose(u, u), rigor::product_with_transpose(exact_u, exact_u)) /
+                 kOfShape});
+      }
+    }
+    return worst;
+  }
+
+ private:
+  [[nodiscard]] std::optional<FilterOnGrid> at(double z, int phases) const {
+    return on_grid(*tone_, curve_->at(z), *parameters_, memory_, phases, {around_.tube, around_.radius, z},
+                   curve_->slope_at(z));
+  }
+
+  const TrackedTone* tone_;
+  const CurveFit* curve_;
+  const FilterParameters* parameters_;
+  int memory_;
+  Surroundings around_;
+  std::array<MatrixXd, kNodes> low_, high_, shape_;
+  std::vector<std::pair<double, FilterOnGrid>> judges_;
+};
+
+Tube tube_of(const TrackedTone& tone, const CurveFit& curve, const FilterFits& fits) {
+  const Index n = tone.filter->states;
+  Tube tube;
+  tube.frequency = curve.frequency;
+  tube.half_width = curve.half_width;
+  tube.amplitude = tone.amplitude;
+  tube.turns.assign(static_cast<std::size_t>(n), 0);
+  PhaseFit of_estimate;
+  for (std::size_t d = 0; d < of_estimate.size(); ++d) {
+    of_estimate.at(d) = curve.coefficients.at(d).topRows(n);
+  }
+  tube.curve = detail::series_of_fit(of_estimate);
+  tube.covariance_low = detail::series_of_fit(fits.low);
+  tube.covariance_high = detail::series_of_fit(fits.high);
+  tube.shape = detail::series_of_fit(fits.shape);
+  return tube;
 }
 
 /// Fills in the tube of these parameters and their worth, or says that the cell is too wide. `around`: as for
 /// an orbit; its z is not read. `unit`: of the levels, rad/sample.
 void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParameters& parameters, double rate,
               const FilterWorth& worth, double unit, const Surroundings& around, TubeProposal& proposal) {
-  const Index n = tone.filter->states;
   proposal.outcome = TubeOutcome::no_common_shape;
   proposal.loss = INFINITY;
   if (!(worth.growth < 1.3)) {
     return;
   }
   constexpr double kForgotten = 1e-6;
-  const int memory = memory_of(rate * rate, parameters, kForgotten);
-  const double scale = 1.0 / unit;
+  FilterGrids grids(tone, curve, parameters, memory_of(rate * rate, parameters, kForgotten), around);
   const int most_harmonics = std::max<int>(24, 2 * static_cast<int>(curve.coefficients[0].cols()));
-  const int phases = 2 * most_harmonics + 1;
-  const auto on_grid_at = [&](double z, int so_many) {
-    return on_grid(tone, curve.at(z), parameters, memory, so_many, {around.tube, around.radius, z},
-                   curve.slope_at(z));
-  };
-  std::array<MatrixXd, kNodes> low;
-  std::array<MatrixXd, kNodes> high;
-  std::array<MatrixXd, kNodes> shape;
-  for (std::size_t j = 0; j < low.size(); ++j) {
-    const auto grid = on_grid_at(node_places().at(j), phases);
-    if (!grid) {
-      return;
-    }
-    low.at(j) = grid->low;
-    high.at(j) = grid->high;
-    shape.at(j) = grid->shape;
-  }
-  // As few harmonics as lose hardly anything, judged between the nodes.
-  std::vector<std::pair<double, FilterOnGrid>> judges;
-  for (const double z : {-1.0, 0.0, 0.6, 1.0}) {
-    auto grid = on_grid_at(z, 31);
-    if (!grid) {
-      return;
-    }
-    judges.emplace_back(z, *std::move(grid));
+  if (!grids.compute(most_harmonics)) {
+    return;
   }
   proposal.outcome = TubeOutcome::cell_too_wide;
-  std::optional<std::array<Fit, 3>> found;
+  // As few harmonics as lose hardly anything.
+  std::optional<FilterFits> found;
   for (int harmonics = 2; harmonics <= most_harmonics && !found; harmonics += 2) {
-    std::array<Fit, 3> fit{fit_of(low, harmonics, 1.0), fit_of(high, harmonics, 1.0),
-                           fit_of(shape, harmonics, scale)};
-    double worst = 0.0;
-    for (const auto& judge : judges) {
-      const double z = judge.first;
-      const FilterOnGrid& exact = judge.second;
-      for (Index j = 0; j < exact.low.cols(); ++j) {
-        const double phase =
-            2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(exact.low.cols());
-        const auto of = [&](const Fit& one, bool is_symmetric) {
-          return matrix_of_triangle(value_of(one, z, phase), n, is_symmetric);
-        };
-        const MatrixXd u = of(fit[2], false) / scale;
-        const MatrixXd exact_u = matrix_of_triangle(exact.shape.col(j), n, false);
-        constexpr double kOfBounds = 0.2 * kSlack;
-        constexpr double kOfShape = 0.01;
-        worst = std::max(
-            {worst, mismatch(of(fit[0], true), matrix_of_triangle(exact.low.col(j), n, true)) / kOfBounds,
-             mismatch(of(fit[1], true), matrix_of_triangle(exact.high.col(j), n, true)) / kOfBounds,
-             mismatch(u * u.transpose(), exact_u * exact_u.transpose()) / kOfShape});
-      }
-    }
-    proposal.loss = std::min(proposal.loss, worst);
-    if (worst <= 1.0) {
-      found = std::move(fit);
+    FilterFits fits = grids.fits(harmonics, 1.0 / unit);
+    const double loss = grids.loss_of(fits, 1.0 / unit);
+    proposal.loss = std::min(proposal.loss, loss);
+    if (loss <= 1.0) {
+      found = std::move(fits);
       proposal.shape.harmonics = harmonics;
     }
   }
@@ -242,20 +212,7 @@ void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParame
   proposal.worth.slew = parameters.slew;
   proposal.worth.rate = std::min(worth.linear, 0.999);
   proposal.shape.worth = proposal.worth;
-  Tube tube;
-  tube.frequency = curve.frequency;
-  tube.half_width = curve.half_width;
-  tube.amplitude = tone.amplitude;
-  tube.turns.assign(static_cast<std::size_t>(n), 0);
-  Fit of_estimate;
-  for (std::size_t d = 0; d < of_estimate.size(); ++d) {
-    of_estimate.at(d) = curve.coefficients.at(d).topRows(n);
-  }
-  tube.curve = series_of_fit(of_estimate);
-  tube.covariance_low = series_of_fit((*found)[0]);
-  tube.covariance_high = series_of_fit((*found)[1]);
-  tube.shape = series_of_fit((*found)[2]);
-  proposal.tube = std::move(tube);
+  proposal.tube = tube_of(tone, curve, *found);
   proposal.outcome = TubeOutcome::proposed;
 }
 

@@ -1,6 +1,5 @@
 #include "analysis/model/filter/filter_step.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -11,8 +10,8 @@
 #include "analysis/model/step/map_bound.hpp"
 #include "analysis/model/step/place_store.hpp"
 #include "analysis/model/step/tube_models.hpp"
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::model {
 
@@ -171,7 +170,7 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
   const double largest = rigor::largest_eigenvalue(middle);
   double best = 0.0;
   double least = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const Eigen::MatrixXd& gram, double mu) {
+  const auto consider = [&](const rigor::SmallMatrix& gram, double mu) {
     const double length = rigor::largest_eigenvalue(gram);
     if (length < least) {
       least = length;
@@ -180,32 +179,82 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
   };
   for (const double factor : {1.04, 1.1, 1.2, 1.35, 1.6, 2.0, 2.7, 4.0, 7.0, 15.0, 60.0}) {
     const double mu = factor * largest + std::numeric_limits<double>::min();
-    const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd::Identity(n, n) - middle / mu);
-    if (root.info() != Eigen::Success) {
+    const auto root = rigor::cholesky(rigor::combination(1.0, rigor::identity(n), -1.0 / mu, middle));
+    if (!root) {
       continue;
     }
-    const auto stacked = [&](const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
-      Eigen::MatrixXd both(top.rows() + bottom.rows(), top.cols());
-      both << root.matrixL().solve(top), std::sqrt(mu) * bottom;
-      return both;
+    const auto gram_of = [&](const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
+      const rigor::SmallMatrix both =
+          rigor::stacked(rigor::lower_solution(*root, top), std::sqrt(mu) * bottom);
+      return rigor::product_with_transpose(both, both);
     };
-    const Eigen::MatrixXd x = stacked(of_x, reach_of_x);
-    const Eigen::MatrixXd gram = x * x.transpose();
+    const rigor::SmallMatrix gram = gram_of(of_x, reach_of_x);
     if (is_noisy) {
-      const Eigen::MatrixXd v = stacked(of_v, reach_of_v);
-      const Eigen::MatrixXd other = v * v.transpose();
+      const rigor::SmallMatrix other = gram_of(of_v, reach_of_v);
       if (of_gaussian > 0.0) {
-        consider(gram + of_gaussian * other, mu);
+        consider(rigor::combination(1.0, gram, of_gaussian, other), mu);
         continue;
       }
       for (const double t : {0.5, 0.68, 0.8, 0.9, 0.96}) {
-        consider(gram / t + other / (1.0 - t), mu);
+        consider(rigor::combination(1.0 / t, gram, 1.0 / (1.0 - t), other), mu);
       }
     } else {
       consider(gram, mu);
     }
   }
   return best;
+}
+
+TubeHere lifted_tube(const TubeHere& of_place) {
+  TubeHere result;
+  for (const BallModel& each : of_place.curve) {
+    result.curve.push_back(each.lifted());
+  }
+  for (const BallModel& each : of_place.shape) {
+    result.shape.push_back(each.lifted());
+  }
+  return result;
+}
+
+/// The tube after the step; with a slew, `stretch` times as long, at all frequencies to which it may move.
+TubeHere tube_after(const Tube& tube, const FilterPlace& place, double slew, double stretch, int of_noise) {
+  if (!(slew > 0.0)) {
+    return lifted_tube(place.frame.there);
+  }
+  Tube estimate = tube;
+  estimate.covariance_low.clear();
+  estimate.covariance_high.clear();
+  const rigor::UpwardRounding upward;
+  return tube_at(estimate, place.frame.next_phase.lifted(),
+                 place.frame.z.lifted() +
+                     BallModel(slew * stretch / tube.half_width) * BallModel::disturbance(of_noise));
+}
+
+/// factor' innovation: how far the range of gains may take the estimate.
+std::vector<BallModel> reach_of(const BallMatrix& factor, const std::vector<BallModel>& innovation) {
+  std::vector<BallModel> reach;
+  for (std::size_t d = 0; d < innovation.size(); ++d) {
+    BallModel sum;
+    for (std::size_t c = d; c < innovation.size(); ++c) {
+      sum += factor(c, d) * innovation[c];
+    }
+    reach.push_back(sum);
+  }
+  return reach;
+}
+
+/// L with L L' = I - spread/mu.
+BallMatrix root_without(const BallMatrix& spread, double mu) {
+  const rigor::BallModelScope inner(0, 0);
+  const std::size_t n = spread.rows();
+  BallMatrix rest(n, n);
+  const BallModel inverse(Interval(1.0) / Interval(mu));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      rest(i, j) = BallModel(i == j ? 1.0 : 0.0) - spread(i, j) * inverse;
+    }
+  }
+  return cholesky(rest);
 }
 
 }  // namespace
@@ -227,29 +276,8 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
   // Noise and slew are in the unit ball together when the squared length of each is at most 1/2.
   constexpr double kRootOfTwo = 0x1.6a09e667f3bcdp0;
   const double stretch = is_noisy && is_moving ? kRootOfTwo : 1.0;
-  const auto lifted_tube = [](const TubeHere& of_place) {
-    TubeHere result;
-    for (const BallModel& each : of_place.curve) {
-      result.curve.push_back(each.lifted());
-    }
-    for (const BallModel& each : of_place.shape) {
-      result.shape.push_back(each.lifted());
-    }
-    return result;
-  };
   const TubeHere here = lifted_tube(place.frame.here);
-  const TubeHere there = [&] {
-    if (!is_moving) {
-      return lifted_tube(place.frame.there);
-    }
-    Tube estimate = tube;
-    estimate.covariance_low.clear();
-    estimate.covariance_high.clear();
-    const rigor::UpwardRounding upward;
-    return tube_at(estimate, place.frame.next_phase.lifted(),
-                   place.frame.z.lifted() + BallModel(question.slew * stretch / tube.half_width) *
-                                                BallModel::disturbance(of_noise));
-  }();
+  const TubeHere there = tube_after(tube, place, question.slew, stretch, of_noise);
   const std::vector<BallModel> state = state_in(here, radius);
   std::vector<BallModel> clean;
   clean.reserve(channels);
@@ -259,7 +287,6 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
   const std::vector<BallModel> samples = noisy_samples(model, clean, question.noise, stretch);
   const trackers::FilterValues<BallModel> values = parts_at(model, state, samples);
   const BallMatrix gain = lifted(place.gain);
-  const BallMatrix factor = lifted(place.factor);
   std::vector<BallModel> next = values.predicted;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t c = 0; c < channels; ++c) {
@@ -268,14 +295,7 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
     next[i] -= there.curve[i];
   }
   const std::vector<BallModel> deviation = in_units_of(there, next);
-  std::vector<BallModel> reach;  // L' (innovation)
-  for (std::size_t d = 0; d < channels; ++d) {
-    BallModel sum;
-    for (std::size_t c = d; c < channels; ++c) {
-      sum += factor(c, d) * values.innovation[c];
-    }
-    reach.push_back(sum);
-  }
+  const std::vector<BallModel> reach = reach_of(lifted(place.factor), values.innovation);
   FilterStepOver step;
   const bool is_known = is_shape(here) && is_shape(there);
   step.frequency_error =
@@ -284,18 +304,7 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
   if (!is_known || !(mu > 0.0) || !std::isfinite(mu)) {
     return step;
   }
-  const BallMatrix root = [&] {
-    const rigor::BallModelScope inner(0, 0);
-    BallMatrix rest(n, n);
-    const BallModel inverse(Interval(1.0) / Interval(mu));
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        rest(i, j) = BallModel(i == j ? 1.0 : 0.0) - place.spread(i, j) * inverse;
-      }
-    }
-    return cholesky(rest);
-  }();
-  step.vector = solved(lifted(root), deviation);
+  step.vector = solved(lifted(root_without(place.spread, mu)), deviation);
   const BallModel root_of_mu(sqrt(Interval(mu)));
   for (const BallModel& each : reach) {
     step.vector.push_back(root_of_mu * each);

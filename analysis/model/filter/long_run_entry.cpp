@@ -1,6 +1,5 @@
 #include "analysis/model/filter/long_run_entry.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -14,9 +13,9 @@
 #include "analysis/model/filter/orbit_points.hpp"
 #include "analysis/model/step/map_bound.hpp"
 #include "analysis/model/step/tube_models.hpp"
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::model {
 
@@ -32,13 +31,9 @@ bool is_below(const std::vector<BallModel>& a, const std::vector<BallModel>& b, 
 
 /// The largest eigenvalue of a in units of b; infinity when b is not positive definite.
 double largest_in_units(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  const Eigen::LLT<Eigen::MatrixXd> root(b);
-  if (root.info() != Eigen::Success) {
-    return std::numeric_limits<double>::infinity();
-  }
-  Eigen::MatrixXd x = root.matrixL().solve(a);
-  x = root.matrixL().solve(x.transpose()).eval();
-  return rigor::largest_eigenvalue(x);
+  const auto root = rigor::cholesky(b);
+  return root ? rigor::largest_eigenvalue(rigor::in_units_of(*root, a))
+              : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

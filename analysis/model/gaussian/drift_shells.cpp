@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::model {
 

@@ -2,13 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::model {
@@ -67,11 +66,11 @@ std::optional<PhaseBounds> bound_at(const CurveDynamics& dynamics, std::size_t p
     const MatrixXd drift = solve(dynamics.slew.col(static_cast<Index>(phase)));
     room -= weights.slew * drift * drift.transpose();
   }
-  const Eigen::LLT<MatrixXd> factor(room);
-  if (factor.info() != Eigen::Success) {
+  const auto factor = rigor::cholesky(room);
+  if (!factor) {
     return std::nullopt;
   }
-  bounds.disturbed_rate = spectral_norm(factor.matrixL().solve(linear));
+  bounds.disturbed_rate = spectral_norm(rigor::lower_solution(*factor, linear));
   MatrixXd second(n, n * n);
   MatrixXd mixed(n, n * channels);
   MatrixXd sample(n, channels * channels);

@@ -1,12 +1,12 @@
 // The parameters of a shape as a point of a space that is searched: see shape_proposal.hpp.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/model/shape/shape_proposal.hpp"
+#include "analysis/rigor/small_matrix.hpp"
 
 namespace veritrack::model::detail {
 
@@ -44,9 +44,8 @@ class SearchCoordinates {
                     const ShapeParameters& nearby)
       : rate_squared_(square_of_rate(dynamics, settings)), weights_(nearby.weights) {
     is_both_ = weights_.noise > 0.0 && weights_.slew > 0.0;
-    const Eigen::LLT<MatrixXd> factor(nearby.source);
-    if (factor.info() == Eigen::Success) {
-      axes_ = factor.matrixL();
+    if (const auto factor = rigor::cholesky(nearby.source)) {
+      axes_ = *factor;
     }
     const double share = (nearby.lambda - rate_squared_) / (1.0 - rate_squared_);
     nearby_ = Eigen::VectorXd::Zero(size());
@@ -102,9 +101,8 @@ class SearchCoordinates {
     // States that no disturbance reaches still have to have an axis.
     const double largest = mean.diagonal().maxCoeff();
     mean.diagonal() = mean.diagonal() * (1.0 + 1e-6) + Eigen::VectorXd::Constant(n, 1e-10 * largest);
-    const Eigen::LLT<MatrixXd> factor(mean);
-    if (factor.info() == Eigen::Success) {
-      axes_ = factor.matrixL();
+    if (const auto factor = rigor::cholesky(mean)) {
+      axes_ = *factor;
     }
   }
 

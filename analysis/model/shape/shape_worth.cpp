@@ -1,10 +1,10 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "analysis/model/shape/shape_proposal.hpp"
+#include "analysis/rigor/small_matrix.hpp"
 
 namespace veritrack::model {
 
@@ -60,12 +60,11 @@ std::optional<MatrixXd> cholesky_factors(const CurveDynamics& dynamics, const Sh
       dynamics.cocycle.lyapunov_solution(parameters.lambda, lyapunov_source(dynamics, parameters));
   for (Index j = 0; j < factors.cols(); ++j) {
     const MatrixXd pi = factors.col(j).reshaped(n, n);
-    const Eigen::LLT<MatrixXd> factor(0.5 * (pi + pi.transpose()));
-    if (factor.info() != Eigen::Success || !pi.allFinite()) {
+    const auto factor = rigor::cholesky(rigor::combination(0.5, pi, 0.5, rigor::transposed(pi)));
+    if (!factor) {
       return std::nullopt;
     }
-    const MatrixXd lower = factor.matrixL();
-    factors.col(j) = lower.reshaped();
+    factors.col(j) = factor->reshaped();
   }
   return factors;
 }

@@ -1,6 +1,5 @@
 #include "analysis/model/steady_state/curve_fit.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/small_matrix.hpp"
 
 namespace veritrack::model {
 
@@ -163,7 +163,7 @@ const Eigen::Matrix<double, kNodes, kNodes>& node_weights() {
         powers(j, d) = std::pow(node_places()[static_cast<std::size_t>(j)], d);
       }
     }
-    return Eigen::Matrix<double, kNodes, kNodes>(powers.inverse());
+    return Eigen::Matrix<double, kNodes, kNodes>(rigor::inverse(powers));
   }();
   return weights;
 }
@@ -249,7 +249,7 @@ std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, dou
     columns = std::max(columns, node->harmonics.cols());
     fit.nodes.push_back(std::move(*node));
   }
-  const Eigen::MatrixXd weights = powers.inverse();
+  const rigor::SmallMatrix weights = rigor::inverse(powers);
   for (int d = 0; d < nodes; ++d) {
     Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(tone.step.states(), columns);
     for (int j = 0; j < nodes; ++j) {

@@ -9,12 +9,14 @@
 
 #include "analysis/model/steady_state/periodic_run.hpp"
 #include "analysis/model/step/undefined_operation.hpp"
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/spectral_radius.hpp"
 
 namespace veritrack::model {
 
 namespace {
+
+constexpr double kResolved = 1e-8;  ///< of a rate
 
 using detail::Fraction;
 using detail::History;
@@ -108,12 +110,60 @@ double error_from_amplitude(const TrackedTone& tone) {
   return most;
 }
 
+namespace {
+
+/// How a simulation ends.
+struct Settling {
+  Eigen::VectorXd size;     ///< of the states
+  bool returns = false;     ///< after a period, up to what it drifts
+  bool is_resting = false;  ///< and does not change any more
+};
+
+/// Runs until nothing changes, at most as long as the settings say; nothing when it diverges, as the result
+/// then says.
+std::optional<Settling> settle(const TrackedTone& tone, const SteadyStateSettings& settings, PeriodicRun& run,
+                               History& history, SteadyState& result) {
+  constexpr double kHuge = 1e9;
+  const auto& is_angle = tone.step.recursion().is_angle;
+  Settling settling;
+  Eigen::VectorXd first_size;
+  for (int next_look = 0;;) {
+    run.run();
+    history.add(run);
+    result.samples += result.period;
+    const Eigen::VectorXd size_now = size_of(run.states(), is_angle);
+    first_size = first_size.size() == 0 ? size_now : first_size;
+    if (!run.states().allFinite() || size_now.maxCoeff() > kHuge * std::max(1.0, first_size.maxCoeff())) {
+      result.outcome = SteadyStateOutcome::diverges;
+      result.undefined = objection_of(tone, run);
+      return std::nullopt;
+    }
+    settling.size = size_now.cwiseMax(first_size);
+    result.drift = history.change(1, is_angle);
+    result.drift.cwiseAbs().cwiseQuotient(settling.size.cwiseMax(1e-300)).maxCoeff(&result.slowest_state);
+    settling.returns = is_small(result.drift, settling.size);
+    const bool is_last = result.samples + result.period > settings.samples || settings.deadline.is_over();
+    if (is_last || (settling.returns && result.samples >= next_look)) {
+      find_slowest_mode(tone, run, settling.size, result);
+      settling.is_resting = settling.returns && is_at_rest(result, size_now, first_size);
+      if (is_last || settling.is_resting || !(result.rate < 1.0 - kResolved)) {
+        return settling;
+      }
+      next_look = 2 * result.samples;
+    }
+  }
+}
+
+bool are_whole(const Eigen::VectorXd& turns) {
+  return (turns - turns.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-9;
+}
+
+}  // namespace
+
 SteadyState find_steady_state(const TrackedTone& tone, double frequency,
                               const SteadyStateSettings& settings) {
   const rigor::NearestRounding nearest;
-  constexpr double kHuge = 1e9;
   constexpr int kLongestRepetition = 8;
-  constexpr double kResolved = 1e-8;  // of a rate
   SteadyState result;
   result.names = tone.names;
   if (!(frequency > 0.0 && frequency < std::numbers::pi)) {
@@ -132,35 +182,9 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
   PeriodicRun run(tone, fraction, start);
   History history;
   history.add(run);
-  Eigen::VectorXd first_size;
-  Eigen::VectorXd size;
-  bool returns = false;
-  bool is_resting = false;
-  for (int next_look = 0;;) {
-    run.run();
-    history.add(run);
-    result.samples += result.period;
-    size = size_of(run.states(), is_angle);
-    const Eigen::VectorXd size_now = size;
-    first_size = first_size.size() == 0 ? size : first_size;
-    if (!run.states().allFinite() || size.maxCoeff() > kHuge * std::max(1.0, first_size.maxCoeff())) {
-      result.outcome = SteadyStateOutcome::diverges;
-      result.undefined = objection_of(tone, run);
-      return result;
-    }
-    size = size.cwiseMax(first_size);
-    result.drift = history.change(1, is_angle);
-    result.drift.cwiseAbs().cwiseQuotient(size.cwiseMax(1e-300)).maxCoeff(&result.slowest_state);
-    returns = is_small(result.drift, size);
-    const bool is_last = result.samples + result.period > settings.samples || settings.deadline.is_over();
-    if (is_last || (returns && result.samples >= next_look)) {
-      find_slowest_mode(tone, run, size, result);
-      is_resting = returns && is_at_rest(result, size_now, first_size);
-      if (is_last || is_resting || !(result.rate < 1.0 - kResolved)) {
-        break;
-      }
-      next_look = 2 * result.samples;
-    }
+  const auto settling = settle(tone, settings, run, history, result);
+  if (!settling) {
+    return result;
   }
   // While it settles, an estimate may be undefined (an arc cosine beyond 1).
   result.mean_frequency = run.mean_frequency();
@@ -170,13 +194,13 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
     return result;
   }
   result.mean_error = result.mean_frequency - result.frequency;
-  const double resolved = is_resting ? kResolved : 4.0 / static_cast<double>(result.samples);
+  const double resolved = settling->is_resting ? kResolved : 4.0 / static_cast<double>(result.samples);
   const Eigen::VectorXd turns = history.turns(1) / static_cast<double>(fraction.turns);
-  const bool are_whole = (turns - turns.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-9;
-  for (int m = 2; (!returns || !are_whole) && m <= kLongestRepetition && history.reaches(m); ++m) {
+  const bool returns = settling->returns;
+  const bool is_whole = are_whole(turns);
+  for (int m = 2; (!returns || !is_whole) && m <= kLongestRepetition && history.reaches(m); ++m) {
     const Eigen::VectorXd together = history.turns(m) / static_cast<double>(fraction.turns);
-    const bool fit = (together - together.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-9;
-    if (is_small(history.change(m, is_angle), size) && fit) {
+    if (is_small(history.change(m, is_angle), settling->size) && are_whole(together)) {
       result.repetition = m;
       result.outcome = SteadyStateOutcome::repeats_later;
       return result;
@@ -188,7 +212,7 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
     result.outcome = SteadyStateOutcome::not_exponentially_stable;
   } else if (std::fabs(result.mean_error) > settings.largest_mean_error) {
     result.outcome = SteadyStateOutcome::locked_elsewhere;
-  } else if (!returns || !are_whole) {
+  } else if (!returns || !is_whole) {
     result.outcome = SteadyStateOutcome::still_drifts;
   } else {
     result.outcome = SteadyStateOutcome::settled;

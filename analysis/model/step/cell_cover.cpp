@@ -2,13 +2,16 @@
 
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::model {
 
@@ -93,31 +96,27 @@ class Cover {
                                       const std::atomic<std::size_t>& first_failure) const {
     const rigor::UpwardRounding upward;
     PartResult result;
-    std::vector<TubeCell> open{part(number)};
     const std::size_t most = budget_.most_cells / (static_cast<std::size_t>(budget_.phases) *
                                                    static_cast<std::size_t>(budget_.frequencies)) +
                              64;
-    while (!open.empty()) {
-      const TubeCell cell = open.back();
-      open.pop_back();
+    const auto look = [&](const TubeCell& cell) -> search::CellLook<TubeCell> {
       if (budget_.deadline.is_over()) {
-        result.failed = cell;
-        return result;
+        return {};
       }
       const CellAnswer answer = (*ask_)(cell);
       if (answer.is_proved) {
         ++result.cells;
         include(result.range, answer.range);
-        continue;
+        return {true};
       }
-      if (result.cells + open.size() >= most || first_failure.load() < number || is_tiny(cell) ||
-          !may_be_proved(cell)) {
-        result.failed = cell;
-        return result;
+      if (first_failure.load() < number || is_tiny(cell) || !may_be_proved(cell)) {
+        return {};
       }
-      halve(cell, answer, open);
-    }
-    result.is_proved = true;
+      return {false, halves_of(cell, answer)};
+    };
+    const auto cover = search::cover_by_bisection(part(number), 2 * static_cast<std::int64_t>(most), look);
+    result.is_proved = cover.is_proved;
+    result.failed = cover.failed.value_or(TubeCell{});
     return result;
   }
 
@@ -134,7 +133,7 @@ class Cover {
     return cell.half_turn < 0x1p-26 || cell.half_z < 0x1p-20;
   }
 
-  static void halve(const TubeCell& cell, const CellAnswer& answer, std::vector<TubeCell>& open) {
+  [[nodiscard]] static std::array<TubeCell, 2> halves_of(const TubeCell& cell, const CellAnswer& answer) {
     TubeCell first = cell;
     TubeCell second = cell;
     // A guess. Where nothing is known of what varies, both directions take their turns.
@@ -151,8 +150,7 @@ class Cover {
       first.turn -= first.half_turn;
       second.turn += second.half_turn;
     }
-    open.push_back(second);
-    open.push_back(first);
+    return {first, second};
   }
 
   const std::function<CellAnswer(const TubeCell&)>* ask_;

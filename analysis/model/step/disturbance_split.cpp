@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::model {

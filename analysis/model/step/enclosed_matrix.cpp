@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/matrix.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::model {
 

@@ -5,6 +5,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "analysis/rigor/small_matrix.hpp"
+
 namespace veritrack::model {
 
 Eigen::VectorXd PointFrame::coordinates(const Eigen::VectorXd& state) const {
@@ -137,12 +139,17 @@ Eigen::VectorXd PointTracker::state(const PointFrame& frame, const Eigen::Vector
   const Eigen::MatrixXd noise = Eigen::Map<const RowMajor>(values.noise.data(), channels(), channels());
   Eigen::MatrixXd predicted = frame.covariance;
   if (between.size() > 0) {
-    const Eigen::MatrixXd root = Eigen::LLT<Eigen::MatrixXd>(frame.spread).matrixL();
-    predicted += root * between * root.transpose();
+    const auto root = rigor::cholesky(frame.spread);
+    if (root) {
+      predicted += rigor::congruence(*root, between);
+    }
   }
-  const Eigen::MatrixXd cross = measured * predicted;
-  const Eigen::MatrixXd updated =
-      predicted - cross.transpose() * (cross * measured.transpose() + noise).ldlt().solve(cross);
+  const rigor::SmallMatrix cross = rigor::product(measured, predicted);
+  const rigor::SmallMatrix innovation =
+      rigor::combination(1.0, rigor::product_with_transpose(cross, measured), 1.0, noise);
+  const rigor::SmallMatrix updated = rigor::combination(
+      1.0, predicted, -1.0,
+      rigor::product(rigor::transposed(cross), rigor::symmetric_solution(innovation, cross)));
   Eigen::VectorXd result(states());
   result.head(n) = estimate;
   Eigen::Index place = n;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 #include "analysis/search/maximize.hpp"
 #include "trackers/signals/random.hpp"
 

@@ -1,5 +1,5 @@
 #include "analysis/quadrature/falsifier/falsifier_gradient.hpp"
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/spectral_radius.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
-#include "analysis/rigor/decompositions.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::quadrature {
 

@@ -1,7 +1,5 @@
 #include "analysis/quadrature/falsifier/start_attack.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,8 @@
 #include <utility>
 
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/small_matrix.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 #include "trackers/signals/random.hpp"
 
@@ -38,11 +38,11 @@ Range range_of(const sets::ContractionQuestion& question) {
   const Eigen::Matrix3d spread = upper - range.lower;
   range.factor = Eigen::Matrix3d::Zero();
   if (!spread.isZero(1e-15 * upper.norm())) {
-    const Eigen::LLT<Eigen::Matrix3d> factor(spread);
-    if (factor.info() != Eigen::Success) {
+    const auto factor = rigor::cholesky(spread);
+    if (!factor) {
       throw std::invalid_argument("the range of start covariances contains nothing");
     }
-    range.factor = factor.matrixL();
+    range.factor = *factor;
   }
   return range;
 }
@@ -79,7 +79,7 @@ class Attacker {
     for (double& entry : m.reshaped()) {
       entry = random_.normal();
     }
-    return Eigen::HouseholderQR<Eigen::Matrix3d>(m).householderQ();
+    return rigor::symmetric_eigensystem(m + m.transpose()).vectors;
   }
 
   Attack start(std::int64_t i) {

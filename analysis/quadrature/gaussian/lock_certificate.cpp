@@ -165,6 +165,46 @@ bool cover(const std::vector<LockSet>& sets, const Interval& frequencies) {
   return frequencies.upper() <= covered;
 }
 
+/// What the error and the sets are.
+std::string note_on(const std::vector<LockSet>& sets, bool leaks) {
+  const LockSet& set = sets.front();
+  return "e is the error in the frame of the true phase: real and imaginary part of the estimate relative "
+         "to the signal, less 1, and the frequency error. s(P) says how far the covariance is from the "
+         "filter's steady state. W = exp(|T e|^2/2 + gamma s(P)^2/2), and the set is where W is at most "
+         "exp(L), L = " +
+         rigor::upper_decimal(Interval(set.level)) +
+         ", kappa = " + rigor::upper_decimal(Interval(set.decay)) +
+         ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) + "." +
+         (leaks ? " With a leak e is that error less the one at which the tracker settles in the middle of a "
+                  "piece of the band of frequencies; each of the " +
+                      std::to_string(sets.size()) + " pieces has a set of its own."
+                : "");
+}
+
+/// What the sets come to.
+struct LockNumbers {
+  Interval probability, reach, level;
+};
+
+void add_quantities(theorems::Derivation& derivation, const LockNumbers& numbers, bool leaks,
+                    bool has_starts) {
+  theorems::add_quantity(
+      derivation,
+      {"probability_of_losing_lock", "p", "e^{-L}(e^{l_0} + c_0/(1 - \\kappa) + N c_0)", kSource,
+       "probability of losing lock within the assumed number of successive samples",
+       theorems::Sense::at_most},
+      numbers.probability, kNone);
+  theorems::add_quantity(derivation,
+                         {"lock_frequency_error", "B",
+                          leaks ? "\\max(|e_{03}| + \\sqrt{2L}\\,|e_3'T^{-1}|)" : "\\sqrt{2L}\\,|e_3'T^{-1}|",
+                          kSource, "frequency error while in lock, rad/sample", theorems::Sense::at_most},
+                         numbers.reach, kNone);
+  theorems::add_quantity(derivation,
+                         {"start_level", "l_0", "\\max\\tfrac12|Te|^2 + \\tfrac12\\gamma s(P)^2", kSource,
+                          "how far out in the set the assumed starts lie", theorems::Sense::at_most},
+                         has_starts ? numbers.level : Interval(), kNone);
+}
+
 LockCertificate certify(const LockQuestion& question, const LockRequest& request,
                         const std::optional<LockProposal>& proposal, std::int64_t most_cells) {
   LockCertificate result;
@@ -196,16 +236,15 @@ LockCertificate certify(const LockQuestion& question, const LockRequest& request
     sets = band.sets;
     result.cells = band.cells;
   }
-  Interval probability;
-  Interval reach;
-  Interval level;
+  LockNumbers numbers;
   if (!sets.empty()) {
     LockStarts starts = question.starts;
     starts.covariance.multiples = widest_multiples(
         sets, starts, (kUsualStartLevel + std::log(sets.front().drift) - kLevelRoom) / kLevelFactor);
     result.covariance_multiples = starts.covariance.multiples;
     // A little more, so that another program finds it below this.
-    level = Interval((start_level(sets, starts) * Interval(kLevelFactor) + Interval(kLevelRoom)).upper());
+    numbers.level =
+        Interval((start_level(sets, starts) * Interval(kLevelFactor) + Interval(kLevelRoom)).upper());
     bool has_room = true;
     bool tolerates = !leaks || cover(sets, question.frequencies);
     for (const LockSet& set : sets) {
@@ -217,45 +256,20 @@ LockCertificate certify(const LockQuestion& question, const LockRequest& request
     }
     const LockSet& set = sets.front();
     derivation.conditions.push_back(rounding_condition(has_room));
-    derivation.conditions.push_back(start_condition(level, set));
-    if (tolerates && has_room && certainly_less_equal(level, Interval(set.level))) {
+    derivation.conditions.push_back(start_condition(numbers.level, set));
+    if (tolerates && has_room && certainly_less_equal(numbers.level, Interval(set.level))) {
       result.sets = sets;
-      derivation.notes.push_back(
-          "e is the error in the frame of the true phase: real and imaginary part of the estimate relative "
-          "to the signal, less 1, and the frequency error. s(P) says how far the covariance is from the "
-          "filter's steady state. W = exp(|T e|^2/2 + gamma s(P)^2/2), and the set is where W is at most "
-          "exp(L), L = " +
-          rigor::upper_decimal(Interval(set.level)) +
-          ", kappa = " + rigor::upper_decimal(Interval(set.decay)) +
-          ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) + "." +
-          (leaks
-               ? " With a leak e is that error less the one at which the tracker settles in the middle of a "
-                 "piece of the band of frequencies; each of the " +
-                     std::to_string(sets.size()) + " pieces has a set of its own."
-               : ""));
-      probability = reach = Interval(0.0);
+      derivation.notes.push_back(note_on(sets, leaks));
+      numbers.probability = numbers.reach = Interval(0.0);
       for (const LockSet& each : sets) {
-        probability = max(probability, losing_probability(each, level, question.samples));
-        reach = max(reach, largest_frequency_error(each));
+        numbers.probability =
+            max(numbers.probability, losing_probability(each, numbers.level, question.samples));
+        numbers.reach = max(numbers.reach, largest_frequency_error(each));
       }
     }
   }
   theorems::conclude(derivation);
-  theorems::add_quantity(
-      derivation,
-      {"probability_of_losing_lock", "p", "e^{-L}(e^{l_0} + c_0/(1 - \\kappa) + N c_0)", kSource,
-       "probability of losing lock within the assumed number of successive samples",
-       theorems::Sense::at_most},
-      probability, kNone);
-  theorems::add_quantity(derivation,
-                         {"lock_frequency_error", "B",
-                          leaks ? "\\max(|e_{03}| + \\sqrt{2L}\\,|e_3'T^{-1}|)" : "\\sqrt{2L}\\,|e_3'T^{-1}|",
-                          kSource, "frequency error while in lock, rad/sample", theorems::Sense::at_most},
-                         reach, kNone);
-  theorems::add_quantity(derivation,
-                         {"start_level", "l_0", "\\max\\tfrac12|Te|^2 + \\tfrac12\\gamma s(P)^2", kSource,
-                          "how far out in the set the assumed starts lie", theorems::Sense::at_most},
-                         result.sets.empty() ? Interval() : level, kNone);
+  add_quantities(derivation, numbers, leaks, !result.sets.empty());
   return result;
 }
 

@@ -6,9 +6,12 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::quadrature {
 
@@ -20,35 +23,23 @@ bool is_apart(const LevelCovariance<double>& p) {
   return p.p12 == 0.0 && p.p13 == 0.0;
 }
 
-/// Bisects a cell until the inequality is proved on all parts.
-struct Walk {
-  const LockSet& set;
-  const CellLook& look;
-  std::int64_t most_cells;
-  std::int64_t cells = 0;
-
-  bool proves(const LevelCell& cell, int depth) {
-    if (is_outside(set, cell)) {
-      return true;
-    }
-    if (++cells > most_cells) {
-      return false;
-    }
-    const CellDrift found = look(cell);
-    if (found.holds) {
-      return true;
-    }
-    if (depth == 0) {
-      return false;
-    }
-    const auto side = static_cast<std::size_t>(std::distance(
-        found.influence.begin(), std::max_element(found.influence.begin(), found.influence.end())));
-    LevelCell first = cell;
-    LevelCell second = cell;
-    first.high[side] = second.low[side] = 0.5 * (cell.low[side] + cell.high[side]);
-    return proves(first, depth - 1) && proves(second, depth - 1);
-  }
+/// A part of the grid, and how often it may still be halved.
+struct Part {
+  LevelCell cell;
+  int depth;
 };
+
+/// Halved along the side that matters most; nothing when it is too deep.
+std::optional<std::array<Part, 2>> halves_of(const Part& part, const CellDrift& found) {
+  if (part.depth == 0) {
+    return std::nullopt;
+  }
+  const auto side = static_cast<std::size_t>(std::distance(
+      found.influence.begin(), std::max_element(found.influence.begin(), found.influence.end())));
+  std::array<Part, 2> halves{Part{part.cell, part.depth - 1}, Part{part.cell, part.depth - 1}};
+  halves[0].cell.high[side] = halves[1].cell.low[side] = 0.5 * (part.cell.low[side] + part.cell.high[side]);
+  return halves;
+}
 
 /// A grid over (u1, u2, u3, s); where the mirror image covers the other half, with u3 >= 0.
 std::vector<LevelCell> grid_of(const LockSet& set, bool half) {
@@ -99,6 +90,7 @@ bool has_mirror_image(const trackers::ToneModel<Interval>& design, const LockSet
 std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const CellLook& look,
                                            const CoverLimits& limits) {
   constexpr int kDepth = 40;
+  constexpr std::int64_t kMostCells = std::numeric_limits<std::int64_t>::max();
   const std::vector<LevelCell> grid = grid_of(set, half);
   if (!covers_set(grid, set, half)) {
     return std::nullopt;
@@ -110,8 +102,19 @@ std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const 
       return;
     }
     const rigor::UpwardRounding upward_here;
-    Walk walk{set, look, limits.cells_in_part};
-    if (!walk.proves(grid[k], kDepth) || (cells += walk.cells) > limits.cells) {
+    std::int64_t looked = 0;  // cells outside are free
+    const auto look_at = [&](const Part& part) -> search::CellLook<Part> {
+      if (is_outside(set, part.cell)) {
+        return {true};
+      }
+      if (++looked > limits.cells_in_part) {
+        return {};
+      }
+      const CellDrift found = look(part.cell);
+      return {found.holds, halves_of(part, found)};
+    };
+    if (!search::cover_by_bisection(Part{grid[k], kDepth}, kMostCells, look_at).is_proved ||
+        (cells += looked) > limits.cells) {
       failed = true;
     }
   });

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/quadrature/true_phase/ellipsoid_search.hpp"
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::quadrature {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/spectral_radius.hpp"
 
 namespace veritrack::quadrature {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "analysis/quadrature/true_phase/ellipsoid_search.hpp"
-#include "analysis/rigor/decompositions.hpp"
+#include "analysis/rigor/symmetric_eigensystem.hpp"
 
 namespace veritrack::quadrature {
 

@@ -129,8 +129,9 @@ class FilterWriter {
 
   /// The inverse of a symmetric 2x2 matrix.
   [[nodiscard]] TermMatrix inverse(const TermMatrix& s) {
-    const Term determinant =
-        builder_.subtract(builder_.multiply(s[0][0], s[1][1]), builder_.multiply(s[0][1], s[1][0]));
+    // One after the other: arguments of a call are evaluated in an order of the compiler's choice.
+    const Term square = builder_.multiply(s[0][1], s[1][0]);
+    const Term determinant = builder_.subtract(builder_.multiply(s[0][0], s[1][1]), square);
     builder_.name(determinant, "S.determinant");
     const Term off_diagonal = builder_.negate(builder_.divide(s[0][1], determinant));
     return {{builder_.divide(s[1][1], determinant), off_diagonal},
@@ -148,8 +149,8 @@ class FilterWriter {
         cross[c][j] = dot(measured[c].derivatives, covariance[j]);
       }
       for (std::size_t d = 0; d <= c; ++d) {
-        const Term term =
-            builder_.add(dot(cross[c], measured[d].derivatives), entry(model_->measurement_noise[c][d]));
+        const Term noise = entry(model_->measurement_noise[c][d]);
+        const Term term = builder_.add(dot(cross[c], measured[d].derivatives), noise);
         innovation_covariance[c][d] = innovation_covariance[d][c] = term;
         builder_.name(term, fmt::format("S.{}.{}", (*samples_)[d], (*samples_)[c]));
       }
@@ -250,6 +251,50 @@ bool depends_on_inputs(const trackers::StraightLineProgram& program, int input, 
   return false;
 }
 
+namespace {
+
+std::vector<Differentiated> with_derivatives(std::vector<Differentiated> terms) {
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    terms[i].derivatives.assign(terms.size(), Term::zero());
+    terms[i].derivatives[i] = Term::one();
+  }
+  return terms;
+}
+
+/// Whether results number first, first + 1, ... are a symmetric matrix of this size, row by row: equal
+/// formulas are one register.
+bool is_symmetric(const trackers::StraightLineProgram& program, std::size_t first, std::size_t size) {
+  const std::vector<int>& results = program.results();
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (results[first + i * size + j] != results[first + j * size + i]) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The prediction with its derivatives by the estimate: those of a given F, if there is one.
+std::vector<Differentiated> prediction_of(ProgramBuilder& builder, const FilterModel& model,
+                                          const Constants& constants,
+                                          const std::vector<Differentiated>& estimates, Position place) {
+  std::vector<Differentiated> predicted = builder.run(
+      compile_step(model.predict, constants, model.states, {}, place), with_derivatives(estimates));
+  // A given F carries the covariance, and nothing is asked of it there.
+  for (std::size_t i = 0; i < model.jacobian.size(); ++i) {
+    for (std::size_t j = 0; j < estimates.size(); ++j) {
+      predicted[i].derivatives[j] =
+          builder.run(compile_formulas({&model.jacobian[i][j]}, constants, model.states), estimates)
+              .front()
+              .value;
+    }
+  }
+  return predicted;
+}
+
+}  // namespace
+
 std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& model,
                                                           const Constants& constants,
                                                           const std::vector<std::string>& samples,
@@ -260,28 +305,11 @@ std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& mod
   const auto input = [&](std::size_t number) {
     return Term::of_register(static_cast<int>(constants.size() + number));
   };
-  const auto with_derivatives = [&](std::vector<Differentiated> terms) {
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      terms[i].derivatives.assign(terms.size(), Term::zero());
-      terms[i].derivatives[i] = Term::one();
-    }
-    return terms;
-  };
   std::vector<Differentiated> estimates(states);
   for (std::size_t i = 0; i < states; ++i) {
     estimates[i].value = input(i);
   }
-  std::vector<Differentiated> predicted = builder.run(
-      compile_step(model.predict, constants, model.states, {}, place), with_derivatives(estimates));
-  // A given F carries the covariance, and nothing is asked of it there.
-  for (std::size_t i = 0; i < model.jacobian.size(); ++i) {
-    for (std::size_t j = 0; j < states; ++j) {
-      predicted[i].derivatives[j] =
-          builder.run(compile_formulas({&model.jacobian[i][j]}, constants, model.states), estimates)
-              .front()
-              .value;
-    }
-  }
+  const std::vector<Differentiated> predicted = prediction_of(builder, model, constants, estimates, place);
   builder.set_position(place);
   std::vector<const Expression*> formulas;
   for (const Expression& formula : model.measure) {
@@ -321,21 +349,9 @@ std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& mod
   const std::size_t of_measurement = states + states * states + channels;
   const bool is_linear = !depends_on_inputs(parts.program, static_cast<int>(constants.size()), of_measurement,
                                             parts.program.results().size());
-  // Equal formulas are one register.
-  const auto is_symmetric = [&](std::size_t first, std::size_t size) {
-    const std::vector<int>& results = parts.program.results();
-    for (std::size_t i = 0; i < size; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (results[first + i * size + j] != results[first + j * size + i]) {
-          return false;
-        }
-      }
-    }
-    return true;
-  };
   const std::size_t of_process = of_measurement + channels * states;
-  const bool are_symmetric =
-      is_symmetric(of_process, states) && is_symmetric(of_process + states * states, channels);
+  const bool are_symmetric = is_symmetric(parts.program, of_process, states) &&
+                             is_symmetric(parts.program, of_process + states * states, channels);
   return is_linear && are_symmetric ? std::optional(std::move(parts)) : std::nullopt;
 }
 

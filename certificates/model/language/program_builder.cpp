@@ -86,79 +86,74 @@ Differentiated ProgramBuilder::differentiate(const Instruction& instruction,
   for (std::size_t i = 0; i < a.derivatives.size(); ++i) {
     const Term da = a.derivatives[i];
     const Term db = b.derivatives[i];
-    if (da.is_zero() && (!has_second || db.is_zero())) {
-      result.derivatives.push_back(Term::zero());
-      continue;
-    }
-    // Only what is needed is computed: each case stands alone.
-    const auto one_over = [&](Term denominator) { return divide(da, denominator); };
-    const auto square = [&](Term term) { return append({Operation::power, place_of(term), -1, -1, 2}); };
-    Term derivative = Term::zero();
-    switch (instruction.operation) {
-      case Operation::add:
-        derivative = add(da, db);
-        break;
-      case Operation::subtract:
-        derivative = subtract(da, db);
-        break;
-      case Operation::multiply:
-        derivative = add(multiply(da, b.value), multiply(a.value, db));
-        break;
-      case Operation::divide:
-        derivative = divide(subtract(da, multiply(value, db)), b.value);
-        break;
-      case Operation::negate:
-        derivative = negate(da);
-        break;
-      case Operation::power: {
-        const int n = instruction.exponent;
-        const Term lower = n <= 1   ? Term::one()
-                           : n == 2 ? a.value
-                                    : append({Operation::power, place_of(a.value), -1, -1, n - 1});
-        const Term factor = n == 0   ? Term::zero()
-                            : n == 1 ? Term::one()
-                                     : multiply(literal(std::to_string(n)), lower);
-        derivative = multiply(factor, da);
-        break;
-      }
-      case Operation::sqrt:
-        derivative = one_over(multiply(literal("2"), value));
-        break;
-      case Operation::exp:
-        derivative = multiply(value, da);
-        break;
-      case Operation::log:
-        derivative = one_over(a.value);
-        break;
-      case Operation::sin:
-        derivative = multiply(apply(Operation::cos, a.value), da);
-        break;
-      case Operation::cos:
-        derivative = negate(multiply(apply(Operation::sin, a.value), da));
-        break;
-      case Operation::tan:
-        derivative = multiply(add(Term::one(), square(value)), da);
-        break;
-      case Operation::asin:
-        derivative = one_over(apply(Operation::sqrt, subtract(Term::one(), square(a.value))));
-        break;
-      case Operation::acos:
-        derivative = negate(one_over(apply(Operation::sqrt, subtract(Term::one(), square(a.value)))));
-        break;
-      case Operation::atan:
-        derivative = one_over(add(Term::one(), square(a.value)));
-        break;
-      case Operation::atan2:
-        derivative = divide(subtract(multiply(b.value, da), multiply(a.value, db)),
-                            add(square(a.value), square(b.value)));
-        break;
-      case Operation::stays_within:
-        derivative = da;
-        break;
-    }
-    result.derivatives.push_back(derivative);
+    const bool is_constant = da.is_zero() && (!has_second || db.is_zero());
+    result.derivatives.push_back(
+        is_constant ? Term::zero() : derivative_of(instruction, value, {a.value, da}, {b.value, db}));
   }
   return result;
+}
+
+// Instructions are appended one statement after the other, or one inside the other: the arguments of a call
+// are evaluated in an order of the compiler's choice.
+Term ProgramBuilder::derivative_of(const Instruction& instruction, Term value, const Slope& first,
+                                   const Slope& second) {
+  const auto [a, da] = first;
+  const auto [b, db] = second;
+  switch (instruction.operation) {
+    case Operation::add:
+      return add(da, db);
+    case Operation::subtract:
+      return subtract(da, db);
+    case Operation::multiply: {
+      const Term right = multiply(a, db);
+      return add(multiply(da, b), right);
+    }
+    case Operation::divide:
+      return divide(subtract(da, multiply(value, db)), b);
+    case Operation::negate:
+      return negate(da);
+    case Operation::power:
+      return multiply(slope_of_power(a, instruction.exponent), da);
+    case Operation::sqrt:
+      return divide(da, multiply(literal("2"), value));
+    case Operation::exp:
+      return multiply(value, da);
+    case Operation::log:
+      return divide(da, a);
+    case Operation::sin:
+      return multiply(apply(Operation::cos, a), da);
+    case Operation::cos:
+      return negate(multiply(apply(Operation::sin, a), da));
+    case Operation::tan:
+      return multiply(add(Term::one(), square(value)), da);
+    case Operation::asin:
+      return divide(da, apply(Operation::sqrt, subtract(Term::one(), square(a))));
+    case Operation::acos:
+      return negate(divide(da, apply(Operation::sqrt, subtract(Term::one(), square(a)))));
+    case Operation::atan:
+      return divide(da, add(Term::one(), square(a)));
+    case Operation::atan2: {
+      const Term square_of_b = square(b);
+      const Term length = add(square(a), square_of_b);
+      const Term right = multiply(a, db);
+      return divide(subtract(multiply(b, da), right), length);
+    }
+    case Operation::stays_within:
+      return da;
+  }
+  return Term::zero();
+}
+
+Term ProgramBuilder::square(Term a) {
+  return append({Operation::power, place_of(a), -1, -1, 2});
+}
+
+Term ProgramBuilder::slope_of_power(Term base, int exponent) {
+  if (exponent <= 1) {
+    return exponent == 0 ? Term::zero() : Term::one();
+  }
+  const Term lower = exponent == 2 ? base : append({Operation::power, place_of(base), -1, -1, exponent - 1});
+  return multiply(literal(std::to_string(exponent)), lower);
 }
 
 std::vector<Differentiated> ProgramBuilder::run(const CompiledProgram& compiled,

@@ -59,6 +59,15 @@ class ProgramBuilder {
   [[nodiscard]] int place_of(Term term) const;
   [[nodiscard]] Differentiated differentiate(const trackers::Instruction& instruction,
                                              const std::vector<Differentiated>& registers);
+  /// A value and its derivative.
+  struct Slope {
+    Term value, derivative;
+  };
+  [[nodiscard]] Term derivative_of(const trackers::Instruction& instruction, Term value, const Slope& first,
+                                   const Slope& second);
+  [[nodiscard]] Term square(Term a);
+  /// n x^(n - 1).
+  [[nodiscard]] Term slope_of_power(Term base, int exponent);
 
   const Constants* constants_;
   CompiledProgram result_;

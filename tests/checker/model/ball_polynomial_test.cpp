@@ -231,6 +231,12 @@ TEST_CASE("the angle of a point") {
   CHECK_FALSE(arctangent2(BallPolynomial::everything(), BallPolynomial(1.0)).known());
   CHECK_FALSE(arctangent2(BallPolynomial(1.0), BallPolynomial::everything()).known());
   CHECK(arctangent2(s, BallPolynomial(1.5)).known());
+  // In a half plane, but further back from its middle than the middle is from the origin.
+  CHECK(arctangent2(BallPolynomial(1.0), BallPolynomial(10.0) + 10.0 * s).known());
+  CHECK_FALSE(arctangent2(BallPolynomial(1.0), BallPolynomial(10.0) + 11.0 * s).known());
+  BallPolynomial unknown(1.0);
+  unknown.widen(6.0);
+  CHECK_FALSE(arctangent2(BallPolynomial(1.0), unknown).known());
   // Of a wide range: x - x^3/3 and at most x^5/5, where the series over the range is far wider.
   CHECK(certainly_less(arctangent(BallPolynomial(0.9) * s).range(), Ball(1.3)));
 }

@@ -1,0 +1,93 @@
+#include "analysis/model/filter/filter_fit.hpp"
+
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "analysis/model/steady_state/phase_grid.hpp"
+
+namespace veritrack::model::detail {
+
+using Eigen::MatrixXcd;
+
+VectorXd triangle_of(const MatrixXd& matrix) {
+  const Index n = matrix.rows();
+  VectorXd entries(n * (n + 1) / 2);
+  Index place = 0;
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j <= i; ++j) {
+      entries[place++] = matrix(i, j);
+    }
+  }
+  return entries;
+}
+
+MatrixXd matrix_of_triangle(const VectorXd& entries, Index n, bool is_symmetric) {
+  MatrixXd matrix = MatrixXd::Zero(n, n);
+  Index place = 0;
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j <= i; ++j) {
+      matrix(i, j) = entries[place++];
+      if (is_symmetric) {
+        matrix(j, i) = matrix(i, j);
+      }
+    }
+  }
+  return matrix;
+}
+
+PhaseFit fit_of(const std::array<MatrixXd, kNodes>& values, int harmonics, double scale) {
+  std::array<MatrixXcd, kNodes> at_nodes;
+  for (std::size_t j = 0; j < at_nodes.size(); ++j) {
+    at_nodes.at(j) = harmonics_of(values.at(j), harmonics) * scale;
+  }
+  PhaseFit fit;
+  for (int d = 0; d < kNodes; ++d) {
+    MatrixXcd sum = MatrixXcd::Zero(at_nodes[0].rows(), at_nodes[0].cols());
+    for (int j = 0; j < kNodes; ++j) {
+      sum += node_weights()(d, j) * at_nodes.at(static_cast<std::size_t>(j));
+    }
+    const double size = at_nodes[0].cwiseAbs().maxCoeff();
+    constexpr double kNegligible = 1e-7;
+    for (Index i = 0; i < sum.size(); ++i) {
+      std::complex<double>& c = sum(i);
+      c = std::abs(c) < kNegligible * size
+              ? 0.0
+              : std::complex<double>(static_cast<float>(c.real()), static_cast<float>(c.imag()));
+    }
+    fit.at(static_cast<std::size_t>(d)) = sum;
+  }
+  return fit;
+}
+
+VectorXd value_of(const PhaseFit& fit, double z, double phase) {
+  MatrixXcd harmonics = fit.back();
+  for (int d = kNodes - 2; d >= 0; --d) {
+    harmonics = (harmonics * z + fit.at(static_cast<std::size_t>(d))).eval();
+  }
+  return value_at(harmonics, phase);
+}
+
+std::vector<PhaseSeries> series_of_fit(const PhaseFit& fit) {
+  std::vector<PhaseSeries> all;
+  for (Index row = 0; row < fit[0].rows(); ++row) {
+    PhaseSeries series;
+    series.coefficients.resize(static_cast<std::size_t>(fit[0].cols()));
+    for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
+      auto& powers = series.coefficients[h];
+      for (const MatrixXcd& matrix : fit) {
+        powers.push_back(matrix(row, static_cast<Index>(h)));
+      }
+      while (!powers.empty() && powers.back() == 0.0) {
+        powers.pop_back();
+      }
+    }
+    while (!series.coefficients.empty() && series.coefficients.back().empty()) {
+      series.coefficients.pop_back();
+    }
+    all.push_back(std::move(series));
+  }
+  return all;
+}
+
+}  // namespace veritrack::model::detail

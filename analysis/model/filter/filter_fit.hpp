@@ -1,0 +1,26 @@
+// Series over the phase and the frequency through the matrices of a filter's tube on a grid, for proposals.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "analysis/model/filter/filter_numbers.hpp"
+#include "analysis/model/step/tube.hpp"
+
+namespace veritrack::model::detail {
+
+/// The lower triangle row by row, and the matrix of one: symmetric, or lower triangular.
+[[nodiscard]] VectorXd triangle_of(const MatrixXd& matrix);
+[[nodiscard]] MatrixXd matrix_of_triangle(const VectorXd& entries, Index n, bool is_symmetric);
+
+/// Coefficients of z^d, rows x harmonics.
+using PhaseFit = std::array<Eigen::MatrixXcd, kNodes>;
+
+/// Through values at the nodes, each rows x phases of a grid; times `scale`, rounded to single precision.
+[[nodiscard]] PhaseFit fit_of(const std::array<MatrixXd, kNodes>& values, int harmonics, double scale);
+/// A column of its values.
+[[nodiscard]] VectorXd value_of(const PhaseFit& fit, double z, double phase);
+/// A series for each row.
+[[nodiscard]] std::vector<PhaseSeries> series_of_fit(const PhaseFit& fit);
+
+}  // namespace veritrack::model::detail

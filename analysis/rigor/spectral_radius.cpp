@@ -1,0 +1,37 @@
+#include "analysis/rigor/spectral_radius.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <stdexcept>
+
+namespace veritrack::rigor {
+
+namespace {
+
+SmallMatrix small(const MatrixView& matrix) {
+  if (matrix.rows() > kMostSmallRows || matrix.rows() != matrix.cols()) {
+    throw std::length_error("the spectral radius is found of square matrices of up to 20 rows");
+  }
+  return matrix;
+}
+
+}  // namespace
+
+double spectral_radius(const MatrixView& matrix) {
+  return small(matrix).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double largest_argument(const MatrixView& matrix) {
+  return small(matrix).eigenvalues().cwiseArg().cwiseAbs().maxCoeff();
+}
+
+DominantMode dominant_mode(const MatrixView& matrix) {
+  const Eigen::EigenSolver<SmallMatrix> solver(small(matrix));
+  Eigen::Index place = 0;
+  const double radius = solver.eigenvalues().cwiseAbs().maxCoeff(&place);
+  // Of a pair of complex eigenvectors only the sizes of the entries have a meaning.
+  const bool is_real = solver.eigenvalues()[place].imag() == 0.0;
+  const Eigen::VectorXcd vector = solver.eigenvectors().col(place);
+  return {radius, is_real ? Eigen::VectorXd(vector.real()) : Eigen::VectorXd(vector.cwiseAbs())};
+}
+
+}  // namespace veritrack::rigor

@@ -24,7 +24,7 @@ using theorems::Sense;
 
 /// What is verified, and what follows from it.
 struct Found {
-  LockSet set;
+  LockBounds set;
   LockRate rate;
   std::optional<LockRate> late;  ///< of a smaller radius, which every error comes below
   Interval start;                ///< |e| of all starts, at most

@@ -214,7 +214,7 @@ PointMatrix LockSearch::secant(double amplitude, const PointVector& error, doubl
   return s;
 }
 
-std::optional<LockSet> LockSearch::set_for(double radius) const {
+std::optional<LockBounds> LockSearch::set_for(double radius) const {
   const rigor::NearestRounding nearest;
   const double first = radius * frame_.row(0).norm();
   const double third = radius * frame_.row(2).norm();
@@ -262,10 +262,10 @@ std::optional<LockSet> LockSearch::set_for(double radius) const {
     floor = std::min(floor, smallest_eigenvalue(inverse * process_noise(amplitude) * inverse.transpose()));
   }
   constexpr double kRoom = 1.03;
-  return LockSet{frame_, above * kRoom, below * kRoom, std::max(0.0, floor / kRoom)};
+  return LockBounds{frame_, above * kRoom, below * kRoom, std::max(0.0, floor / kRoom)};
 }
 
-std::optional<LockRate> LockSearch::rate_for(const LockSet& set, double radius) const {
+std::optional<LockRate> LockSearch::rate_for(const LockBounds& set, double radius) const {
   const rigor::NearestRounding nearest;
   struct Sample {
     PointMatrix step, spread, turned;  ///< the step at the middle covariance, secant' D secant, F D F'
@@ -323,7 +323,7 @@ std::optional<LockRate> LockSearch::rate_for(const LockSet& set, double radius) 
   return LockRate{radius, rate, best_weight};
 }
 
-std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius, double tilt) const {
+std::optional<LockDrift> LockSearch::drift_for(const LockBounds& set, double radius, double tilt) const {
   const rigor::NearestRounding nearest;
   const PointMatrix unit = PointMatrix::Identity();
   const PointMatrix turn = frame_.inverse() * turn_ * frame_;

@@ -15,12 +15,12 @@ class LockSearch {
   explicit LockSearch(const LockProblem& problem);
 
   /// Bounds of the covariance for errors up to that radius in the frame; none when there are none.
-  [[nodiscard]] std::optional<LockSet> set_for(double radius) const;
+  [[nodiscard]] std::optional<LockBounds> set_for(double radius) const;
   /// The rate of a set for errors up to that radius, a little above what samples show; none unless below 1.
-  [[nodiscard]] std::optional<LockRate> rate_for(const LockSet& set, double radius) const;
+  [[nodiscard]] std::optional<LockRate> rate_for(const LockBounds& set, double radius) const;
   /// The best growth for that tilt, and a floor, a little worse than what samples show; none unless the
   /// growth is below 1.
-  [[nodiscard]] std::optional<LockDrift> drift_for(const LockSet& set, double radius, double tilt) const;
+  [[nodiscard]] std::optional<LockDrift> drift_for(const LockBounds& set, double radius, double tilt) const;
   [[nodiscard]] const rigor::Matrix<3>& frame() const { return frame_; }
   /// The steady covariance, x1 relative to the tone's, phase at the middle of the block.
   [[nodiscard]] const rigor::Matrix<3>& steady() const { return steady_; }

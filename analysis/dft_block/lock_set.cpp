@@ -44,7 +44,7 @@ Interval squared_root_amplitude(const Interval& amplitude) {
   return amplitude / (Interval(4.0) * rigor::pi());
 }
 
-std::optional<LockFrame> LockFrame::make(const LockProblem& problem, const LockSet& set) {
+std::optional<LockFrame> LockFrame::make(const LockProblem& problem, const LockBounds& set) {
   LockFrame result;
   result.problem_ = problem;
   result.set_ = set;

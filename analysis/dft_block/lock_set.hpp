@@ -28,7 +28,7 @@ struct LockProblem {
 };
 
 /// Exact doubles, proposed by anyone.
-struct LockSet {
+struct LockBounds {
   rigor::Matrix<3> frame;  ///< C
   double above = 0.0;
   double below = 0.0;
@@ -59,7 +59,7 @@ struct LockDrift {
 class LockFrame {
  public:
   /// None when the frame is not certainly regular.
-  static std::optional<LockFrame> make(const LockProblem& problem, const LockSet& set);
+  static std::optional<LockFrame> make(const LockProblem& problem, const LockBounds& set);
 
   /// True only when the covariances stay between their bounds and errors fall at that rate, for all errors up
   /// to that radius, all offsets and amplitudes, without noise and slew: at most `most_cells` cells. Needs
@@ -105,7 +105,7 @@ class LockFrame {
   [[nodiscard]] rigor::IntervalMatrix<3> process_noise(const rigor::Interval& amplitude) const;
 
   LockProblem problem_;
-  LockSet set_;
+  LockBounds set_;
   rigor::IntervalMatrix<3> frame_, inverse_, turn_;
 };
 

@@ -16,7 +16,7 @@ inline constexpr std::array kSlewShares{0.02, 0.05, 0.1, 0.2, 0.4};
 
 /// A set with its drift; neither depends on how loud the noise is. No evidence of anything.
 struct ProposedDrift {
-  LockSet set;
+  LockBounds set;
   LockDrift drift;
 };
 
@@ -26,7 +26,7 @@ struct ProposedDrift {
 
 /// A set with the bound that follows for some noise.
 struct InNoise {
-  LockSet set;
+  LockBounds set;
   LockDrift drift;
   double slew_share = 1.0;
   LossBound bound;

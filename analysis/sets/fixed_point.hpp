@@ -91,7 +91,7 @@ template <typename Loop>
 /// center + (p - parameter_center) slope + uniqueness, and it lies in the same box with `tight` in the place
 /// of `uniqueness`. As a function of p it is continuously differentiable.
 template <int N>
-struct FixedPointTube {
+struct FixedPointFamily {
   rigor::Interval parameter;
   double parameter_center = 0.0;
   rigor::Vector<N> center;
@@ -189,7 +189,7 @@ class KrawczykOperator {
 /// by Krawczyk's operator; nothing when that fails, in particular when something is not finite. Holds its own
 /// rounding mode.
 template <typename Loop>
-[[nodiscard]] std::optional<FixedPointTube<Loop::kStates>> verify_fixed_point(
+[[nodiscard]] std::optional<FixedPointFamily<Loop::kStates>> verify_fixed_point(
     const Loop& loop, const FixedPointProposal<Loop::kStates>& proposal, const rigor::Interval& parameter) {
   constexpr int kSize = Loop::kStates;
   constexpr int kInflations = 12;
@@ -216,15 +216,15 @@ template <typename Loop>
     if (!is_finite(tight)) {
       return std::nullopt;
     }
-    return FixedPointTube<kSize>{parameter,      midpoint(parameter), proposal.state,
-                                 proposal.slope, candidate,           tight};
+    return FixedPointFamily<kSize>{parameter,      midpoint(parameter), proposal.state,
+                                   proposal.slope, candidate,           tight};
   }
   return std::nullopt;
 }
 
 /// The same, from an approximate fixed point that Newton's method improves first.
 template <typename Loop>
-[[nodiscard]] std::optional<FixedPointTube<Loop::kStates>> verify_fixed_point(
+[[nodiscard]] std::optional<FixedPointFamily<Loop::kStates>> verify_fixed_point(
     const Loop& loop, const rigor::Vector<Loop::kStates>& approximate, const rigor::Interval& parameter) {
   const auto proposal = propose_fixed_point(loop, approximate, midpoint(parameter));
   return proposal ? verify_fixed_point(loop, *proposal, parameter) : std::nullopt;
@@ -261,11 +261,11 @@ template <typename Loop>
   return false;
 }
 
-/// An enclosure of dX*/dp over the tube: (I - dG/dX) dX*/dp = dG/dp. Nothing when it could not be verified.
+/// An enclosure of dX*/dp over the family: (I - dG/dX) dX*/dp = dG/dp. Nothing when it could not be verified.
 /// Holds its own rounding mode.
 template <typename Loop>
 [[nodiscard]] std::optional<rigor::IntervalVector<Loop::kStates>> enclose_slope(
-    const Loop& loop, const FixedPointTube<Loop::kStates>& tube) {
+    const Loop& loop, const FixedPointFamily<Loop::kStates>& tube) {
   using Matrix = rigor::IntervalMatrix<Loop::kStates>;
   const rigor::UpwardRounding upward;
   const auto local = linearize_loop<Loop, rigor::Interval>(loop, tube.box(), tube.parameter);

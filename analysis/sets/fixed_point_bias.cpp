@@ -6,7 +6,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/definiteness.hpp"
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 
 namespace veritrack::sets {
 

@@ -19,7 +19,7 @@
 namespace veritrack::sets {
 
 /// Fixed points of the quadrature tracker over a range of frequencies.
-using QuadratureTube = FixedPointTube<QuadraturePolarLoop::kStates>;
+using QuadratureTube = FixedPointFamily<QuadraturePolarLoop::kStates>;
 
 /// The bias of the steady state, over a range of frequencies.
 struct SteadyStateError {

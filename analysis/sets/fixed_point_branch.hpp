@@ -12,7 +12,7 @@ namespace veritrack::sets {
 /// shown to hold the same fixed point, so that together they hold one continuously differentiable branch.
 template <int N>
 struct FixedPointBranch {
-  std::vector<FixedPointTube<N>> cells;
+  std::vector<FixedPointFamily<N>> cells;
   double reached = 0.0;   ///< the branch is verified from its start up to here
   bool complete = false;  ///< `reached` is where it was to go
 };

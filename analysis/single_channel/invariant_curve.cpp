@@ -42,7 +42,7 @@ void read_off(const InvariantTube& tube, SteadyStateBias& bias) {
   double largest_error = 0.0;
   bool locked = true;
   const Model omega = Model::variable(tube.frequency, 1);
-  for (const TubeCell& cell : tube.cells) {
+  for (const CurveCell& cell : tube.cells) {
     const auto error = [&](Eigen::Index row) {
       return rigor::symmetric(
           (Interval(bias.distance) * Interval(cell.reach[static_cast<std::size_t>(row)])).upper());

@@ -74,10 +74,10 @@ std::optional<InvariantTube> propose_tube(const ToneModel<Interval>& design, con
   if (!coordinates) {
     return std::nullopt;
   }
-  InvariantTube tube{design, frequency, curve, std::vector<TubeCell>(count), coordinates->rate};
+  InvariantTube tube{design, frequency, curve, std::vector<CurveCell>(count), coordinates->rate};
   std::vector<char> usable(count, 0);
   for_each_cell(tube, [&](std::size_t i) {
-    TubeCell& cell = tube.cells[i];
+    CurveCell& cell = tube.cells[i];
     cell.phase = cover[i];
     cell.matrix = coordinates->matrices[i];
     cell.targets = targets_of(cover, cover[i], frequency);

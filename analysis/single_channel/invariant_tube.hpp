@@ -17,7 +17,7 @@
 namespace veritrack::single_channel {
 
 /// A part of the period with its coordinates.
-struct TubeCell {
+struct CurveCell {
   rigor::Interval phase;
   rigor::Matrix<9> matrix;           ///< V
   rigor::IntervalMatrix<9> inverse;  ///< V^-1, enclosed
@@ -30,7 +30,7 @@ struct InvariantTube {
   trackers::ToneModel<rigor::Interval> design;
   rigor::Interval frequency;  ///< rad/sample
   PhaseFamily curve;
-  std::vector<TubeCell> cells;
+  std::vector<CurveCell> cells;
   double expected_rate = 1.0;  ///< by which the map is expected to contract in the coordinates
 };
 

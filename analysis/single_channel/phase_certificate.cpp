@@ -142,7 +142,7 @@ bool is_lock(const PhaseQuestion& question, const std::optional<PhaseSet>& found
 }
 
 void set_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set_found,
-              sets::ContractionResult& result) {
+              sets::KalmanFilterResult& result) {
   const Reach reach = set_found ? reach_of(*set_found) : Reach{};
   if (set_found) {
     result.rate_window = errors_of(question, *set_found).window();
@@ -193,8 +193,8 @@ void set_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
   set(starts.settled_frequency_error, "", settled, why_not);
 }
 
-sets::ContractionResult result_of(const PhaseQuestion& question, const PhaseCertificate& certificate) {
-  sets::ContractionResult result;
+sets::KalmanFilterResult result_of(const PhaseQuestion& question, const PhaseCertificate& certificate) {
+  sets::KalmanFilterResult result;
   set_size(question, certificate.set, result);
   set_promises(question, certificate, result.starts);
   set(result.largest_noise, "",

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 #include "analysis/single_channel/phase_sets.hpp"
 #include "analysis/theorems/derivation.hpp"
 
@@ -14,7 +14,7 @@ struct PhaseCertificate {
   /// id "contraction"; the quantities of `result`; conditions leak, controllable-amplitude, invariant-set,
   /// start-in-set.
   theorems::Derivation derivation;
-  sets::ContractionResult result;
+  sets::KalmanFilterResult result;
   std::optional<PhaseSet> set;        ///< the largest start error under the assumed noise and slew
   std::optional<PhaseSet> bound_set;  ///< the least bound from the assumed starts on
   std::optional<PhaseSet> noise_set;  ///< the largest noise, without slew

@@ -57,7 +57,7 @@ double larger(double a, double b) {
 
 /// rho of condition (a) for one cell and all its targets; infinite when it could not be bounded.
 template <int Variables>
-double residual(const InvariantTube& tube, const TubeCell& cell) {
+double residual(const InvariantTube& tube, const CurveCell& cell) {
   using Model = OverCell<Variables, Variables == 1 ? 5 : 4>;
   const Model phase = Model::variable(cell.phase, 0);
   const Model omega = frequency_of<Model, Variables>(tube);
@@ -79,7 +79,7 @@ double residual(const InvariantTube& tube, const TubeCell& cell) {
 /// kappa of condition (b) for one cell and all its targets, over the tube of that radius; infinite when it
 /// could not be bounded.
 template <int Variables>
-double contraction(const InvariantTube& tube, const TubeCell& cell, double tube_radius) {
+double contraction(const InvariantTube& tube, const CurveCell& cell, double tube_radius) {
   using Model = OverCell<Variables, Variables == 1 ? 3 : 2>;
   using Dual = rigor::Dual<Model, 9>;
   const Model phase = Model::variable(cell.phase, 0);
@@ -127,7 +127,7 @@ TubeVerification verify(const InvariantTube& tube) {
     return TubeVerification{attempt, reason, 1.0, 0.0};
   };
   const double rho =
-      largest_over_cells(tube, [&](const TubeCell& cell) { return residual<Variables>(tube, cell); });
+      largest_over_cells(tube, [&](const CurveCell& cell) { return residual<Variables>(tube, cell); });
   if (!std::isfinite(rho)) {
     return failed(TubeAttempt::wants_smaller_cells,
                   "the proposed curve could not be shown to be nearly invariant");
@@ -138,7 +138,7 @@ TubeVerification verify(const InvariantTube& tube) {
   for (int round = 0; round < 2; ++round) {
     const double tube_radius = 2.0 * rho / (1.0 - seen_rate);
     const double kappa = largest_over_cells(
-        tube, [&](const TubeCell& cell) { return contraction<Variables>(tube, cell, tube_radius); });
+        tube, [&](const CurveCell& cell) { return contraction<Variables>(tube, cell, tube_radius); });
     const Interval rate(kappa);
     const Interval radius(tube_radius);
     // cannot bind (rate): with a rate of 1 or more no radius covers the rest and the distance is not finite.

@@ -52,7 +52,7 @@ void set_contraction(ErrorRecursion& recursion, const IntervalMatrix<3>& carried
 
 }  // namespace
 
-std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design, const EstimateTube& tube,
+std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design, const ErrorBounds& tube,
                                               int window) {
   const auto range = window > 0 ? matrix_range(design, tube, window) : invariant_range(design, tube);
   if (!range) {

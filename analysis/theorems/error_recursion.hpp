@@ -16,7 +16,7 @@ namespace veritrack::theorems {
 
 /// The constants of the recursion, and where it is valid.
 struct ErrorRecursion {
-  EstimateTube tube;
+  ErrorBounds tube;
   int window = 0;  ///< N of the Riccati bounds, samples; 0: the range of invariant_covariance.hpp
   MatrixRange range;
 
@@ -54,6 +54,6 @@ struct ErrorRecursion {
 /// alpha is not certainly below
 /// 1. Needs the upward rounding mode.
 [[nodiscard]] std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design,
-                                                            const EstimateTube& tube, int window);
+                                                            const ErrorBounds& tube, int window);
 
 }  // namespace veritrack::theorems

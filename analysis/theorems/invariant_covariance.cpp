@@ -47,7 +47,7 @@ std::optional<Eigen::Matrix3d> scaled_steady_state(const IntervalDesign& design,
 
 /// The covariance after a step from `covariance`, in the frame of the predicted phase.
 IntervalMatrix<3> after_step(const IntervalMatrix<3>& covariance, const IntervalDesign& design,
-                             const EstimateTube& tube) {
+                             const ErrorBounds& tube) {
   using Covariance = trackers::PolarCovariance<Interval>;
   const IntervalMatrix<3> turn = tube.turn();
   const IntervalMatrix<3> own = turn * covariance * turn.transpose();
@@ -59,7 +59,7 @@ IntervalMatrix<3> after_step(const IntervalMatrix<3>& covariance, const Interval
 }  // namespace
 
 std::optional<MatrixRange> verified_range(const Eigen::Matrix3d& upper, const Eigen::Matrix3d& lower,
-                                          const IntervalDesign& design, const EstimateTube& tube) {
+                                          const IntervalDesign& design, const ErrorBounds& tube) {
   MatrixRange range;
   range.upper = rigor::to_interval(upper);
   const IntervalMatrix<3> least = rigor::to_interval(lower);
@@ -78,7 +78,7 @@ std::optional<MatrixRange> verified_range(const Eigen::Matrix3d& upper, const Ei
   return range;
 }
 
-std::optional<MatrixRange> invariant_range(const IntervalDesign& design, const EstimateTube& tube) {
+std::optional<MatrixRange> invariant_range(const IntervalDesign& design, const ErrorBounds& tube) {
   constexpr double kLargestShare = 0.75;
   double share = tube.plane_error.upper();
   while (share < kLargestShare) {

@@ -15,13 +15,13 @@ namespace veritrack::theorems {
 /// for every amplitude and turn of the tube, which suffices because Phi is monotone. The steady state along
 /// exact estimates lies in the range. Nothing when no proposal was verified. Needs the upward rounding mode.
 [[nodiscard]] std::optional<MatrixRange> invariant_range(const IntervalDesign& design,
-                                                         const EstimateTube& tube);
+                                                         const ErrorBounds& tube);
 
 /// The range between two proposed matrices, when the order interval that they bound is verified as above and
 /// `lower` is positive definite. Needs the upward rounding mode.
 [[nodiscard]] std::optional<MatrixRange> verified_range(const Eigen::Matrix3d& upper,
                                                         const Eigen::Matrix3d& lower,
                                                         const IntervalDesign& design,
-                                                        const EstimateTube& tube);
+                                                        const ErrorBounds& tube);
 
 }  // namespace veritrack::theorems

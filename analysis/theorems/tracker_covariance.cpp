@@ -37,11 +37,11 @@ std::optional<IntervalMatrix<3>> point_above(const IntervalMatrix<3>& matrix) {
   return rigor::is_finite(above) ? std::optional(above) : std::nullopt;
 }
 
-Interval EstimateTube::amplitude() const {
+Interval ErrorBounds::amplitude() const {
   return Interval(1.0) + rigor::symmetric(plane_error.upper());
 }
 
-IntervalMatrix<3> EstimateTube::turn() const {
+IntervalMatrix<3> ErrorBounds::turn() const {
   const Interval one(1.0);
   // asin x <= x / sqrt(1 - x^2).
   const Interval phase = plane_error / sqrt(one - square(plane_error));
@@ -63,7 +63,7 @@ IntervalMatrix<3> own_frame_transition(const Interval& amplitude, const Interval
   return transition;
 }
 
-std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const EstimateTube& tube, int window) {
+std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const ErrorBounds& tube, int window) {
   const IntervalMatrix<3> straight = own_frame_transition(tube.amplitude(), design.epsilon);
   const IntervalMatrix<3> turned = tube.turn() * straight;
   const auto steps = static_cast<std::size_t>(window);
@@ -93,7 +93,7 @@ std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const Esti
 }
 
 Verdict decide_start(const IntervalMatrix<3>& start, const MatrixRange& range, const IntervalDesign& design,
-                     const EstimateTube& tube, int window) {
+                     const ErrorBounds& tube, int window) {
   using Covariance = trackers::PolarCovariance<Interval>;
   const IntervalMatrix<3> turn = tube.turn();
   Covariance covariance = Covariance::from_matrix(start);

@@ -20,7 +20,7 @@ namespace veritrack::theorems {
 using IntervalDesign = trackers::ToneModel<rigor::Interval>;
 
 /// Bounds on the estimation errors, relative to a signal of amplitude 1.
-struct EstimateTube {
+struct ErrorBounds {
   rigor::Interval plane_error;      ///< |z(k|k) - z(k)| <= plane_error < 1, signal units
   rigor::Interval frequency_error;  ///< |x3(k|k) - x3(k)| <= frequency_error, rad/sample
 
@@ -44,14 +44,14 @@ struct MatrixRange {
 [[nodiscard]] rigor::IntervalMatrix<3> own_frame_transition(const rigor::Interval& amplitude,
                                                             const rigor::Interval& epsilon);
 
-/// The range for all k > window when every estimate stays in the tube; nothing when it could not be verified
+/// The range for all k > window when every estimate keeps the bounds; nothing when it could not be verified
 /// (for example because q1 may be zero and the window is 1). `window` >= 1 is N of riccati_bounds.hpp.
-[[nodiscard]] std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const EstimateTube& tube,
+[[nodiscard]] std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const ErrorBounds& tube,
                                                       int window);
 
 /// Does P(k|k) also lie in the range for k = 0, ..., window, when the filter starts with P(0|0) = `start` (in
-/// the frame of the estimated phase) and every estimate stays in the tube? Nothing is refuted.
+/// the frame of the estimated phase) and every estimate keeps the bounds? Nothing is refuted.
 [[nodiscard]] rigor::Verdict decide_start(const rigor::IntervalMatrix<3>& start, const MatrixRange& range,
-                                          const IntervalDesign& design, const EstimateTube& tube, int window);
+                                          const IntervalDesign& design, const ErrorBounds& tube, int window);
 
 }  // namespace veritrack::theorems

@@ -13,7 +13,7 @@
 
 #include "analysis/rigor/verdict.hpp"
 #include "analysis/search/deadline.hpp"
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 #include "analysis/theorems/derivation.hpp"
 #include "certificates/design/design.hpp"
 #include "certificates/document/formal_proof.hpp"
@@ -54,7 +54,7 @@ struct Certificate {
   std::string design_text;                        ///< as read
   std::vector<theorems::Derivation> derivations;  ///< what follows from what, by the kind of tracker
   /// What is certified of the assumed starts and beyond; none for a tracker without such a certificate.
-  std::optional<sets::ContractionResult> contraction;
+  std::optional<sets::KalmanFilterResult> contraction;
   std::vector<Claim> claims;
   /// Of all required claims together; none when nothing is required, which is no verdict at all.
   std::optional<rigor::Verdict> verdict;

@@ -33,7 +33,7 @@ bool is_lock(const quadrature::CertifiedSet& set) {
   return sets::excludes_other_locks(quadrature::error_bounds(set, Interval(set.radius))[2]);
 }
 
-bool starts_are_outside(const sets::ContractionResult& contraction) {
+bool starts_are_outside(const sets::KalmanFilterResult& contraction) {
   const auto& conditions = contraction.starts.conditions;
   return std::any_of(conditions.begin(), conditions.end(), [](const theorems::Condition& condition) {
     return condition.id == "start-in-set" && condition.verdict != Verdict::proved;

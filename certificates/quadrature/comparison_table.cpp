@@ -32,7 +32,7 @@ ComparedResult row_of(const theorems::Derivation& derivation) {
           value_of("noise_bound"), value_of("rate")};
 }
 
-ComparedResult row_of(const theorems::Derivation& derivation, const sets::ContractionResult& result) {
+ComparedResult row_of(const theorems::Derivation& derivation, const sets::KalmanFilterResult& result) {
   return {derivation.id, derivation.verdict, above_zero(&result.frequency_error_radius),
           above_zero(&result.largest_noise), above_zero(&result.contraction_rate)};
 }

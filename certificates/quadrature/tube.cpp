@@ -97,7 +97,7 @@ std::vector<double> bound_from(quadrature::CertifiedLevel level) {
 
 }  // namespace
 
-std::optional<FrequencyErrorTube> certified_tube(const Certificate& certificate) {
+std::optional<FrequencyErrorBounds> certified_tube(const Certificate& certificate) {
   const auto named = std::find_if(quadrature_particulars(certificate).certified_sets.begin(),
                                   quadrature_particulars(certificate).certified_sets.end(),
                                   [](const NamedSet& one) { return one.purpose == "start-error"; });
@@ -105,7 +105,7 @@ std::optional<FrequencyErrorTube> certified_tube(const Certificate& certificate)
   if (named == quadrature_particulars(certificate).certified_sets.end() || !bound) {
     return std::nullopt;
   }
-  FrequencyErrorTube tube;
+  FrequencyErrorBounds tube;
   std::vector<State> starts;
   Loop loop;
   {

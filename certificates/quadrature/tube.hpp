@@ -9,7 +9,7 @@
 namespace veritrack::certificates {
 
 /// |frequency error|, rad/sample, after 0, 1, ... samples.
-struct FrequencyErrorTube {
+struct FrequencyErrorBounds {
   /// The starts: all assumed ones, which had to be captured; otherwise all of the certified set.
   bool from_assumed_starts = false;
   std::vector<double> bound;  ///< certified, for every such start and all noise and slew assumed
@@ -22,6 +22,6 @@ struct FrequencyErrorTube {
 };
 
 /// None when no set is certified or no bound is proved. Opens its own rounding scopes.
-[[nodiscard]] std::optional<FrequencyErrorTube> certified_tube(const Certificate& certificate);
+[[nodiscard]] std::optional<FrequencyErrorBounds> certified_tube(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

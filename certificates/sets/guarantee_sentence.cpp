@@ -6,7 +6,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 #include "analysis/sets/lock_limit.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
@@ -186,7 +186,7 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
 }
 
 std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTerms& terms) {
-  const sets::ContractionResult& found = certificate.contraction.value();
+  const sets::KalmanFilterResult& found = certificate.contraction.value();
   const FrequencyUnits units(terms.assume.sample_rate);
   std::vector<Claim> claims;
   if (found.frequency_error_radius.applies() && found.contraction_rate.applies()) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/rigor/decimal.hpp"
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/frequency_units.hpp"
 
@@ -139,7 +139,7 @@ Claim required_claim(const char* id, std::string requirement, const std::string&
 void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) {
   const Assumptions& assume = terms.assume;
   const Requirements& require = terms.require;
-  const sets::ContractionResult& found = certificate.contraction.value();
+  const sets::KalmanFilterResult& found = certificate.contraction.value();
   const std::string lock = lock_words(terms);
   const std::string in_lock =
       ": a certified invariant set exists, in which the frequency error stays below " + lock;

@@ -19,7 +19,7 @@ double lower_of(const theorems::Quantity& quantity) {
 
 }  // namespace
 
-CertifiedValues values_of(const sets::ContractionResult& result, const Requirements& require) {
+CertifiedValues values_of(const sets::KalmanFilterResult& result, const Requirements& require) {
   CertifiedValues found;
   const sets::StartResult& starts = result.starts;
   if (starts.verdict == rigor::Verdict::proved) {

@@ -5,14 +5,14 @@
 #include <set>
 #include <vector>
 
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 #include "certificates/tuning/design_text.hpp"
 #include "certificates/tuning/value_search.hpp"
 
 namespace veritrack::certificates {
 
 /// What a contraction certificate says, as the search judges it.
-[[nodiscard]] CertifiedValues values_of(const sets::ContractionResult& result, const Requirements& require);
+[[nodiscard]] CertifiedValues values_of(const sets::KalmanFilterResult& result, const Requirements& require);
 
 /// Simulates the design when that is needed.
 void add_simulated(const Design& design, const Assumptions& assume, const std::set<Objective>& needed,

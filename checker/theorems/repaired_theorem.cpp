@@ -1,14 +1,14 @@
 #include "checker/theorems/repaired_theorem.hpp"
 
+#include "checker/theorems/error_bounds.hpp"
 #include "checker/theorems/signal_model.hpp"
 #include "checker/theorems/theorem_2_9.hpp"
-#include "checker/theorems/tube.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-void add_start(Derivation& found, const Tube& tube, const Design& d) {
+void add_start(Derivation& found, const ErrorBounds& tube, const Design& d) {
   const Ball start = tube.radius / sqrt(tube.q());
   const std::vector<Quantity> quantities{
       {"window", Ball(tube.window)},
@@ -30,7 +30,7 @@ void add_start(Derivation& found, const Tube& tube, const Design& d) {
   found.quantities.insert(found.quantities.end(), quantities.begin(), quantities.end());
 }
 
-void check_feasibility(const Tree& claimed, const std::optional<Tube>& noise, const Design& d,
+void check_feasibility(const Tree& claimed, const std::optional<ErrorBounds>& noise, const Design& d,
                        Objections& objections) {
   const Verdict verdict = verdict_from(claimed.at("verdict").text());
   if (claimed.at("every_design").truth()) {
@@ -69,10 +69,10 @@ void check_feasibility(const Tree& claimed, const std::optional<Tube>& noise, co
 }  // namespace
 
 std::string check_repaired_theorem(const Tree& claimed, const Design& d, Objections& objections) {
-  const std::optional<Tube> start = verified_tube(claimed, "start", d, objections);
-  const std::optional<Tube> noise = verified_tube(claimed, "noise", d, objections);
-  const std::optional<Tube> process = verified_tube(claimed, "process-noise", d, objections);
-  const std::optional<Tube> assumed = verified_tube(claimed, "assumed", d, objections);
+  const std::optional<ErrorBounds> start = verified_error_bounds(claimed, "start", d, objections);
+  const std::optional<ErrorBounds> noise = verified_error_bounds(claimed, "noise", d, objections);
+  const std::optional<ErrorBounds> process = verified_error_bounds(claimed, "process-noise", d, objections);
+  const std::optional<ErrorBounds> assumed = verified_error_bounds(claimed, "assumed", d, objections);
   const Ball nothing = Ball::everything();
   Derivation found;
   found.title = "Theorem 2.9 repaired: error and noise bounds with every gap of the proof closed";

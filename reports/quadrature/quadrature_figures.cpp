@@ -148,7 +148,7 @@ Figure error_figure(const Certificate& certificate) {
           {std::move(run), std::move(table)}};
 }
 
-FigureTable table_of_tube(const certificates::FrequencyErrorTube& tube) {
+FigureTable table_of_tube(const certificates::FrequencyErrorBounds& tube) {
   std::vector<std::string> columns{"sample", "certified bound of |frequency error| [rad/sample]"};
   for (std::size_t i = 0; i < tube.runs.size(); ++i) {
     columns.push_back(fmt::format("|frequency error|, simulated run {} [rad/sample]", i + 1));
@@ -166,7 +166,7 @@ FigureTable table_of_tube(const certificates::FrequencyErrorTube& tube) {
 }
 
 /// The runs in grey, thin, under the bound, black and broad.
-Figure tube_figure(const Certificate& certificate, const certificates::FrequencyErrorTube& tube) {
+Figure tube_figure(const Certificate& certificate, const certificates::FrequencyErrorBounds& tube) {
   std::string script = over_samples(380);
   FigureTable table = table_of_tube(tube);
   std::vector<Level> levels;

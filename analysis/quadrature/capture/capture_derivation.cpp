@@ -74,8 +74,8 @@ std::optional<Interval> wrong_lock(const CertifiedSet& set, const Region& region
 
 }  // namespace
 
-CaptureTube capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
-                         const Region& region) {
+CaptureBounds capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
+                           const Region& region) {
   constexpr int kLongest = 100000;
   const int last_capture = capture_samples(region);
   std::vector<std::optional<double>> captures(static_cast<std::size_t>(last_capture) + 1);  // their levels
@@ -83,7 +83,7 @@ CaptureTube capture_tube(const sets::ContractionQuestion& question, const Certif
     std::optional<double>& level = captures[static_cast<std::size_t>(cell.result.samples)];
     level = std::max(level.value_or(0.0), cell.result.level);
   }
-  CaptureTube tube;
+  CaptureBounds tube;
   std::optional<CertifiedLevel> captured;
   for (int k = 0; k <= last_capture; ++k) {
     const auto index = static_cast<std::size_t>(k);
@@ -118,7 +118,7 @@ CaptureTube capture_tube(const sets::ContractionQuestion& question, const Certif
 }
 
 sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& set_of_capture,
-                                 const Region& region, const CaptureTube& tube) {
+                                 const Region& region, const CaptureBounds& tube) {
   const bool proved = verdict_on_starts == Verdict::proved;
   const bool undisturbed = tube.ultimate_frequency_error == 0.0;  // by noise or slew
   constexpr const char* kNotAll = "Not every assumed start is proved to be captured.";

@@ -8,13 +8,13 @@
 #include "analysis/quadrature/capture/capture_region.hpp"
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/sets/contraction_question.hpp"
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 #include "analysis/theorems/derivation.hpp"
 
 namespace veritrack::quadrature {
 
 /// The bounds of all cells while they are followed, and those of the set from each cell's capture on.
-struct CaptureTube {
+struct CaptureBounds {
   /// On |frequency error|, rad/sample, after 0, 1, ... samples; the last one is valid for ever after.
   std::vector<double> frequency_errors;
   double ultimate_frequency_error = 0.0;  ///< of the set that captures
@@ -22,14 +22,14 @@ struct CaptureTube {
   double settled_frequency_error = 0.0;  ///< from then on, rad/sample
 };
 
-/// The tube of a region of which every cell is PROVED. Needs the upward mode.
-[[nodiscard]] CaptureTube capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
-                                       const Region& region);
+/// The bounds of a region of which every cell is PROVED. Needs the upward mode.
+[[nodiscard]] CaptureBounds capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
+                                         const Region& region);
 
 /// The claims that the cells prove about the starts, without the conditions. Needs the upward mode.
 [[nodiscard]] sets::StartResult capture_result(rigor::Verdict verdict_on_starts,
                                                const CertifiedSet& set_of_capture, const Region& region,
-                                               const CaptureTube& tube);
+                                               const CaptureBounds& tube);
 
 /// The quantities of that result, and cells and cells_captured.
 [[nodiscard]] std::vector<theorems::Quantity> capture_quantities(const sets::StartResult& result,

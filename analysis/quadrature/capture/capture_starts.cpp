@@ -109,7 +109,7 @@ StartCapture capture_starts(const sets::ContractionQuestion& question, const Cer
   if (derivation.conditions[0].verdict == Verdict::proved) {
     derivation.evidence = capture_evidence(question, capture.region);
   }
-  CaptureTube tube;
+  CaptureBounds tube;
   if (derivation.verdict == Verdict::proved) {
     tube = capture_tube(question, set, capture.region);
   }

@@ -64,7 +64,7 @@ void set(theorems::Quantity& quantity, const char* formula, const Interval& valu
 }
 
 /// The size of the set; without one the quantities are there but not applicable.
-void set_size(const std::optional<Verification>& found, sets::ContractionResult& result) {
+void set_size(const std::optional<Verification>& found, sets::KalmanFilterResult& result) {
   Interval rate;
   Interval radius;
   IntervalVector<3> bounds;
@@ -314,7 +314,7 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& aske
   if (certificate.set) {
     derivation.conditions.push_back(start_in_set(question, certificate.set->set, promises.starts_inside()));
   }
-  sets::ContractionResult& result = certificate.result;
+  sets::KalmanFilterResult& result = certificate.result;
   set_size(certificate.set, result);
   set_promises(question, promises, result.starts);
   const auto& noisy = certificate.noise_set;

@@ -6,7 +6,7 @@
 
 #include "analysis/quadrature/contraction/verification.hpp"
 #include "analysis/sets/contraction_question.hpp"
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 #include "analysis/theorems/derivation.hpp"
 
 namespace veritrack::quadrature {
@@ -20,7 +20,7 @@ struct ContractionCertificate {
   /// frequency_error_bound_tightness, ultimate_frequency_error_tightness; conditions leak,
   /// controllable-amplitude, invariant-set, start-in-set.
   theorems::Derivation derivation;
-  sets::ContractionResult result;
+  sets::KalmanFilterResult result;
   std::optional<Verification> set;        ///< the largest start error under the assumed noise and slew
   std::optional<Verification> noise_set;  ///< the largest noise, without slew
   std::optional<Verification> slew_set;   ///< the largest slew, without noise

@@ -200,8 +200,8 @@ Interval least_radius(const std::vector<SteadyPiece>& pieces, Eigen::Index i) {
 }
 
 /// The result; `report` is there when a set is PROVED.
-sets::ContractionResult result_of(const Search& search, const std::optional<SteadyReport>& report,
-                                  const std::optional<Interval>& rate) {
+sets::KalmanFilterResult result_of(const Search& search, const std::optional<SteadyReport>& report,
+                                   const std::optional<Interval>& rate) {
   const std::string& why = search.why;
   const auto said = [&](const auto& function) {
     return report ? std::optional<Interval>(function(*report)) : std::nullopt;
@@ -211,7 +211,7 @@ sets::ContractionResult result_of(const Search& search, const std::optional<Stea
       return search.radius_sets.empty() ? r.radius(i) : least_radius(search.radius_sets, i);
     });
   };
-  sets::ContractionResult result;
+  sets::KalmanFilterResult result;
   result.about_steady_state = true;
   set(result.contraction_rate, "\\max_j s_{j+1} / s_j", rate, why);
   set(result.radius, "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt, why);

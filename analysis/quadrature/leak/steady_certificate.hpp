@@ -20,7 +20,7 @@ struct LeakCertificate {
   /// id "contraction"; the quantities of `result`, about the steady state where they are radii and about the
   /// truth where they are bounds; conditions steady-state, invariant-set, start-in-set.
   theorems::Derivation derivation;
-  sets::ContractionResult result;
+  sets::KalmanFilterResult result;
   std::optional<SteadyVerification> set;  ///< PROVED, or the last attempt
 };
 

@@ -109,8 +109,8 @@ TEST_CASE("what is no drift is not verified") {
   const theorems::Derivation found = dft_block::derive_loss(asked);
   REQUIRE(found.verdict == rigor::Verdict::proved);
   const auto& evidence = found.evidence.front();
-  const dft_block::LockSet set{evidence.matrices[0].second, number_of(found, "above"),
-                               number_of(found, "below"), 0.0};
+  const dft_block::LockBounds set{evidence.matrices[0].second, number_of(found, "above"),
+                                  number_of(found, "below"), 0.0};
   dft_block::LockDrift drift;
   drift.radius = 0.5 * number_of(found, "radius");
   drift.tilt = number_of(found, "tilt");

@@ -192,7 +192,7 @@ TEST_CASE("what is not true is not verified") {
   REQUIRE(rate);
   const rigor::UpwardRounding upward;
   constexpr std::int64_t kCells = 20'000;
-  const auto verified = [&](const dft_block::LockSet& one, const dft_block::LockRate& fall) {
+  const auto verified = [&](const dft_block::LockBounds& one, const dft_block::LockRate& fall) {
     const auto frame = dft_block::LockFrame::make(problem, one);
     return frame && frame->verify(fall, kCells);
   };

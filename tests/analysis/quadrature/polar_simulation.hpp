@@ -56,7 +56,7 @@ struct Simulation {
 };
 
 /// X*(omega) in double, on the branch's cells.
-inline Polar steady_state(const Simulation& simulation, const std::vector<sets::FixedPointTube<9>>& cells,
+inline Polar steady_state(const Simulation& simulation, const std::vector<sets::FixedPointFamily<9>>& cells,
                           const trackers::ToneModel<rigor::Interval>& design) {
   for (const auto& cell : cells) {
     if (cell.parameter.lower() <= simulation.frequency && simulation.frequency <= cell.parameter.upper()) {

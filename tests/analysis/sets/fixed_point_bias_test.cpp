@@ -68,7 +68,7 @@ double linear_bias_slope(double q1, double q2, double r, double epsilon) {
   return -epsilon / (epsilon + gain[1] / gain[0]);
 }
 
-const FixedPointTube<9>& cell_at(const LockBranch& branch, double frequency) {
+const FixedPointFamily<9>& cell_at(const LockBranch& branch, double frequency) {
   for (const auto& cell : branch.cells) {
     if (contains(cell.parameter, frequency)) {
       return cell;

@@ -30,7 +30,7 @@ TEST_CASE("the cells that a cell is moved to are all those that it meets, whatev
                      frequency, *curve, 64);
     REQUIRE(tube.has_value());
     CHECK(tube->cells.size() == 64);
-    for (const TubeCell& cell : tube->cells) {
+    for (const CurveCell& cell : tube->cells) {
       CHECK(!cell.targets.empty());
       CHECK(cell.targets.size() <= 4);
       for (int k = 0; k < 50; ++k) {

@@ -61,7 +61,7 @@ TEST_CASE("every step of the tube leads from the range into it, from its upper a
     const double plane = std::pow(10.0, random.uniform(-4.0, -0.7));
     const double frequency = std::pow(10.0, random.uniform(-4.0, -0.7));
     const rigor::UpwardRounding upward;
-    const EstimateTube tube{Interval(plane), Interval(frequency)};
+    const ErrorBounds tube{Interval(plane), Interval(frequency)};
     const auto range = invariant_range(enclosed(design), tube);
     if (!range) {
       continue;
@@ -90,7 +90,7 @@ TEST_CASE(
     "matrices that bound no invariant range: too low above, too high below, and a lower one below zero") {
   const Tone design{0.0023, 0.0023, 0.05, 0.0};
   const rigor::UpwardRounding upward;
-  const EstimateTube tube{Interval(1e-4), Interval(1e-4)};
+  const ErrorBounds tube{Interval(1e-4), Interval(1e-4)};
   const auto range = invariant_range(enclosed(design), tube);
   REQUIRE(range.has_value());
   const Eigen::Matrix3d high = middle_of(range->upper);
@@ -109,7 +109,7 @@ TEST_CASE(
 TEST_CASE("a start is in the range only when it is between both bounds") {
   const Tone design{0.0023, 0.0023, 0.05, 0.0};
   const rigor::UpwardRounding upward;
-  const EstimateTube tube{Interval(1e-4), Interval(1e-4)};
+  const ErrorBounds tube{Interval(1e-4), Interval(1e-4)};
   const auto range = invariant_range(enclosed(design), tube);
   REQUIRE(range.has_value());
   const Eigen::Matrix3d high = middle_of(range->upper);

@@ -11,7 +11,7 @@ namespace {
 using namespace veritrack;
 
 /// No run may leave the bound, rounding aside; disturbed ones must not be at rest.
-void check_runs(const certificates::FrequencyErrorTube& tube) {
+void check_runs(const certificates::FrequencyErrorBounds& tube) {
   REQUIRE(!tube.runs.empty());
   double last = 0.0;
   for (const std::vector<double>& run : tube.runs) {

@@ -1,6 +1,6 @@
-// Tubes of the repaired theorem that claim more than they may in one place: each guard of verified_tube alone
-// stands between them and VERIFIED.
-#include "checker/theorems/tube.hpp"
+// Tubes of the repaired theorem that claim more than they may in one place: each guard of
+// verified_error_bounds alone stands between them and VERIFIED.
+#include "checker/theorems/error_bounds.hpp"
 
 #include <doctest/doctest.h>
 
@@ -21,9 +21,9 @@ namespace {
 
 bool is_verified(const WrittenTube& tube, const Design& design = the_design()) {
   Objections objections;
-  const bool verified =
-      verified_tube(read_json(R"({"evidence": [)" + evidence_of(tube, "a") + "]}"), "a", design, objections)
-          .has_value();
+  const bool verified = verified_error_bounds(read_json(R"({"evidence": [)" + evidence_of(tube, "a") + "]}"),
+                                              "a", design, objections)
+                            .has_value();
   CHECK(verified == objections.empty());
   return verified;
 }
@@ -202,7 +202,7 @@ TEST_CASE("designs that the repaired theorem is not about") {
 }
 
 TEST_CASE("a tube is invariant only while its radius is inside it, and tolerates the disturbance") {
-  Tube tube;
+  ErrorBounds tube;
   tube.plane = Ball(0.25);
   tube.frequency = Ball(0.125);
   tube.one_minus_alpha = Ball(0.5);

@@ -1,4 +1,4 @@
-#include "checker/theorems/tube.hpp"
+#include "checker/theorems/error_bounds.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -28,9 +28,9 @@ Matrix3 updated(const Matrix3& p, const Ball& r) {
 }
 
 /// Walks the amplitudes rho and turns theta that occur in the tube.
-class TubeCheck {
+class ErrorBoundsCheck {
  public:
-  TubeCheck(const Tube& tube, const Design& design)
+  ErrorBoundsCheck(const ErrorBounds& tube, const Design& design)
       : tube_(tube),
         design_(design),
         lower_(inverse(tube.information)),
@@ -182,7 +182,7 @@ class TubeCheck {
     return definite(seen) && definite(plane) && certainly_less(over[2][2], square(tube_.process_gain));
   }
 
-  const Tube& tube_;
+  const ErrorBounds& tube_;
   const Design& design_;
   Matrix3 lower_, noise_;
   Ball alpha2_;
@@ -190,8 +190,8 @@ class TubeCheck {
 
 }  // namespace
 
-std::optional<Tube> verified_tube(const Tree& derivation, const std::string& name, const Design& design,
-                                  Objections& objections) {
+std::optional<ErrorBounds> verified_error_bounds(const Tree& derivation, const std::string& name,
+                                                 const Design& design, Objections& objections) {
   const Tree* item = find_evidence(derivation, name);
   if (item == nullptr) {
     return std::nullopt;
@@ -199,17 +199,17 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
   const auto number = [&](const char* key) { return exact_number(item->at("numbers").at(key)); };
   const auto matrix = [&](const char* key) { return exact_matrix(item->at("matrices").at(key)); };
   const double window = number("window").near();
-  const Tube tube{number("plane_error"),
-                  number("frequency_error"),
-                  number("one_minus_alpha"),
-                  number("curvature"),
-                  number("process_gain"),
-                  number("measurement_gain"),
-                  number("s"),
-                  number("radius"),
-                  matrix("covariance_upper"),
-                  matrix("information_upper"),
-                  static_cast<int>(std::clamp(window, 0.0, 20.0))};
+  const ErrorBounds tube{number("plane_error"),
+                         number("frequency_error"),
+                         number("one_minus_alpha"),
+                         number("curvature"),
+                         number("process_gain"),
+                         number("measurement_gain"),
+                         number("s"),
+                         number("radius"),
+                         matrix("covariance_upper"),
+                         matrix("information_upper"),
+                         static_cast<int>(std::clamp(window, 0.0, 20.0))};
   // cannot bind (tube.plane, tube.one_minus_alpha, design.q1, design.epsilon): at amplitude zero the
   // frequency is not seen, so that no bound on it is kept, and beyond 1 the arcsine is a ball of everything;
   // without alpha and q1, mu Q is not above what is carried; designs with another epsilon are refused as they
@@ -222,7 +222,7 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
                         certainly_positive(design.q1) && certainly_not_negative(design.epsilon) &&
                         certainly_less(design.epsilon, one);
   if (sensible && symmetric(tube.upper) && symmetric(tube.information) &&
-      TubeCheck(tube, design).is_proved()) {
+      ErrorBoundsCheck(tube, design).is_proved()) {
     return tube;
   }
   objections.push_back("the tube \"" + name + "\" is not proved by its evidence");

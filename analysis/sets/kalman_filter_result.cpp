@@ -1,4 +1,4 @@
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -97,7 +97,7 @@ const Condition* StartResult::first_condition(Verdict wanted) const {
   return found == conditions.end() ? nullptr : &*found;
 }
 
-std::vector<Quantity> quantities_of(const ContractionResult& result) {
+std::vector<Quantity> quantities_of(const KalmanFilterResult& result) {
   const StartResult& starts = result.starts;
   std::vector<Quantity> all{result.contraction_rate,       result.radius,
                             result.frequency_error_radius, result.phase_error_radius,
@@ -116,7 +116,7 @@ std::vector<Quantity> quantities_of(const ContractionResult& result) {
   return all;
 }
 
-void conclude(theorems::Derivation& derivation, ContractionResult& result) {
+void conclude(theorems::Derivation& derivation, KalmanFilterResult& result) {
   std::vector<Quantity> all = quantities_of(result);
   std::move(derivation.quantities.begin(), derivation.quantities.end(), std::back_inserter(all));
   derivation.quantities = std::move(all);

@@ -56,7 +56,7 @@ struct StartResult {
 };
 
 /// The certified results for a design: quantities with words, symbol, formula, source, sense and value.
-struct ContractionResult {
+struct KalmanFilterResult {
   // Of the largest certified set under the assumed noise and slew.
   theorems::Quantity contraction_rate = quantities::contraction_rate();
   int rate_window = 1;              ///< samples over which the rate is a geometric mean
@@ -72,10 +72,10 @@ struct ContractionResult {
 };
 
 /// The quantities of a result in the order in which certificates have them.
-[[nodiscard]] std::vector<theorems::Quantity> quantities_of(const ContractionResult& result);
+[[nodiscard]] std::vector<theorems::Quantity> quantities_of(const KalmanFilterResult& result);
 
 /// Completes the derivation "contraction", which has its conditions: the quantities of the result come first,
 /// before what it has of sampled ones. The result has conditions and verdict afterwards.
-void conclude(theorems::Derivation& derivation, ContractionResult& result);
+void conclude(theorems::Derivation& derivation, KalmanFilterResult& result);
 
 }  // namespace veritrack::sets

@@ -1,4 +1,4 @@
-#include "analysis/sets/contraction_result.hpp"
+#include "analysis/sets/kalman_filter_result.hpp"
 
 #include <doctest/doctest.h>
 
@@ -72,7 +72,7 @@ TEST_CASE("the first open condition is the first that is not PROVED, whatever co
 }
 
 TEST_CASE("the quantities of a result come in the order of the certificates, before the sampled ones") {
-  ContractionResult result;
+  KalmanFilterResult result;
   theorems::Derivation derivation;
   derivation.conditions = {condition("a", Verdict::proved)};
   derivation.quantities = {{"sampled", "", "", "", Interval(1.0), std::nullopt, theorems::Sense::sampled}};
@@ -92,7 +92,7 @@ TEST_CASE("the quantities of a result come in the order of the certificates, bef
 }
 
 TEST_CASE("every quantity has words with its unit or what it counts") {
-  ContractionResult result;
+  KalmanFilterResult result;
   for (const auto& quantity : quantities_of(result)) {
     CAPTURE(quantity.name);
     CHECK_FALSE(quantity.words.empty());

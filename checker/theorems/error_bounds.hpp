@@ -10,8 +10,8 @@
 
 namespace veritrack::checker {
 
-/// One tube with its recursion, as the evidence gives it. In use only when it is verified.
-struct Tube {
+/// Bounds on the errors with their recursion, as the evidence gives it. In use only when it is verified.
+struct ErrorBounds {
   Ball plane, frequency;  ///< |z(k|k) - z(k)| and |x3(k|k) - x3(k)| at most
   Ball one_minus_alpha, curvature, process_gain, measurement_gain, s, radius;
   Matrix3 upper, information;  ///< P(k|k) <= upper, P(k|k)^-1 <= information
@@ -25,7 +25,7 @@ struct Tube {
   [[nodiscard]] Ball disturbance(const Ball& w, const Ball& v) const {
     return process_gain * w + measurement_gain * v;
   }
-  /// alpha R + c R^2 + d <= R, and R keeps the estimate in the tube.
+  /// alpha R + c R^2 + d <= R, and R keeps the estimate within them.
   [[nodiscard]] bool invariant(const Ball& disturbance) const {
     return certainly_positive(radius) && certainly_at_most(radius, plane / plane_gain()) &&
            certainly_at_most(radius, frequency / frequency_gain()) &&
@@ -35,8 +35,8 @@ struct Tube {
   [[nodiscard]] Ball tolerated() const { return one_minus_alpha * radius - curvature * square(radius); }
 };
 
-/// The tube of this name, verified; none when the evidence has none, or not all that it says is proved.
-std::optional<Tube> verified_tube(const Tree& derivation, const std::string& name, const Design& design,
-                                  Objections& objections);
+/// The bounds of this name, verified; none when the evidence has none, or not all that it says is proved.
+std::optional<ErrorBounds> verified_error_bounds(const Tree& derivation, const std::string& name,
+                                                 const Design& design, Objections& objections);
 
 }  // namespace veritrack::checker

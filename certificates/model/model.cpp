@@ -251,7 +251,7 @@ std::vector<NamedText> with_start_covariance(std::vector<NamedText> start,
 void require_no_comment(const SourceText& formula) {
   if (formula.text.find_first_of("#\n\r") != std::string::npos) {
     throw LanguageError(formula.position,
-                        "a comment, or a second line, in a formula that is told in a sentence; allowed: the "
+                        "a comment, or a second line, in a formula that a sentence repeats; allowed: the "
                         "formula alone");
   }
 }

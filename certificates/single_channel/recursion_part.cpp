@@ -99,7 +99,7 @@ void decide(Certificate& certificate, const Certificate& recursion, const SameCl
                                  [&](const Claim& claim) { return claim.id == same.here; });
   here->statement = there->statement;
   here->verdict = Verdict::proved;
-  here->reason = "Of the same filter as a recursion. " + there->reason;
+  here->reason = "The same filter as a recursion: " + there->reason;
   here->evidence.clear();
   here->values = {{"by", "recursion"}};
 }

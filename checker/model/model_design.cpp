@@ -71,7 +71,7 @@ void read_amplitude(const Tree& amplitude, ModelDesign& design, Objections& obje
 Ball value_of_told(const Tree& formula, ModelRecursion& recursion, Objections& objections) {
   const std::string& text = formula.text();
   if (text.find_first_of("#\n\r") != std::string::npos) {
-    objections.emplace_back("a comment in a formula that is told in a sentence");
+    objections.emplace_back("a comment in a formula that a sentence repeats");
   }
   return recursion.constant_value(text);
 }

@@ -180,7 +180,7 @@ int answer(const std::vector<std::string>& arguments) {
 
 int main(int count, char** words) {
   const int status = answer({words + 1, words + count});
-  // An answer that nobody can read is none.
+  // An answer that nobody can read is no answer.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     std::fprintf(stderr, "veritrack-verify: standard output cannot be written\n");
     return kMalformed;

@@ -8,8 +8,8 @@ namespace veritrack::checker {
 /// The `schema` of the certificates that this checker reads.
 constexpr const char* kFormat = "veritrack/certificate/2";
 
-/// Throws Malformed for what is not a certificate of this format. Of very many boxes of starts only a sample
-/// is followed unless `all_boxes`, and the certificate is then not verified.
+/// Throws Malformed for what is not a certificate of this format. When there are very many boxes of starts,
+/// only a sample is followed unless `all_boxes`, and the certificate is then not verified.
 Verification verify(const Tree& certificate, bool all_boxes = false);
 
 }  // namespace veritrack::checker

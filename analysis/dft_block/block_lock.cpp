@@ -79,7 +79,7 @@ std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates
   return root ? std::optional<rigor::Matrix<kStates>>(rigor::transposed(*root)) : std::nullopt;
 }
 
-/// Where the run ends; none when it does not.
+/// The end of the run; empty when it does not end.
 std::optional<rigor::Vector<kStates>> run_to_the_end(const BlockProblem<Interval>& problem,
                                                      rigor::Vector<kStates> state) {
   const rigor::NearestRounding nearest;
@@ -190,7 +190,7 @@ std::optional<BlockLock> find_lock(const BlockProblem<Interval>& problem,
       if (!contraction || !(*contraction < 1.0)) {
         continue;
       }
-      proposal.radius *= 0.8;  // room for others' enclosures
+      proposal.radius *= 0.8;  // room for the enclosures of other programs
       proposal.rate = 0.5 * (1.0 + *contraction);
       const auto found = verify_lock(problem, proposal);
       if (found && (!best || width(found->offset_error) > width(best->offset_error))) {

@@ -4,7 +4,7 @@
 // In the coordinates of docs/block-tracker.md, section 2: errors and covariance of the prediction of a block,
 // x1 relative to the tone's, the phase at the middle of the block. With the estimate x = delta + z_3 the next
 // prediction is F(z + X v), F X F' + Q with X = (P^-1 + J)^-1, J = H'R^-1 H and v = H'R^-1 (h(tone) -
-// h(estimate)). A test holds it against the tracker's own program.
+// h(estimate)). A test compares it with the tracker's own program.
 #pragma once
 
 #include <Eigen/Core>

@@ -21,7 +21,7 @@ using rigor::Verdict;
 using theorems::Derivation;
 using theorems::Sense;
 
-/// A short decimal within the range, at about that share of it; none when that takes too many digits.
+/// A short decimal within the range, at about that share of it; empty when that takes too many digits.
 std::optional<std::string> decimal_within(const Interval& range, double share) {
   const double at = range.lower() + share * (range.upper() - range.lower());
   constexpr int kMostDigits = 17;
@@ -48,7 +48,7 @@ bool is_away(const BlockLock& lock, bool above) {
                : rigor::certainly_less(lock.offset_error, Interval(-kHalfBin));
 }
 
-/// Of the ends of many runs for one tone: the nearest on either side.
+/// The nearest ends on either side, among those of many runs for one tone.
 std::array<std::optional<FoundFalse>, 2> find_about(const LockProblem& problem, const WitnessTone& tone) {
   const BlockProblem<Interval> map = block_problem(problem, tone);
   std::array<std::optional<FoundFalse>, 2> nearest;

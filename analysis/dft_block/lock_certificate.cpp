@@ -22,11 +22,11 @@ using rigor::Verdict;
 using theorems::Derivation;
 using theorems::Sense;
 
-/// What is verified, and what follows from it.
+/// The verified data and their consequences.
 struct Found {
   LockBounds set;
   LockRate rate;
-  std::optional<LockRate> late;  ///< of a smaller radius, which every error comes below
+  std::optional<LockRate> late;  ///< for a smaller radius, below which every error comes
   Interval start;                ///< |e| of all starts, at most
   Interval disturbance;
 };
@@ -37,12 +37,12 @@ Interval start_length(const LockFrame& frame, const LockQuestion& question) {
   return frame.length_of(bounds);
 }
 
-/// Where noise and slew push against the rate.
+/// The level at which noise and slew balance the rate.
 Interval invariant_length(const Interval& disturbance, const LockRate& rate) {
   return disturbance / (Interval(1.0) - Interval(rate.rate));
 }
 
-/// The smallest set of a ladder that holds the starts and that noise and slew do not push out of.
+/// The smallest set of a ladder that contains the starts and that noise and slew cannot make errors leave.
 struct LadderResult {
   std::optional<Found> found;
   bool had_rate = false;  ///< some set contracts
@@ -79,7 +79,7 @@ LadderResult climb(const LockQuestion& question, const LockSearch& search) {
     }
     result.had_rate = true;
     result.had_room = result.had_room || tolerates;
-    // On to what is needed, at least by a step.
+    // Continues to the needed radius, at least by a step.
     radius = std::max(radius * kStep, std::min(kRoom * start.upper(), radius * 2.0));
   }
   return result;
@@ -100,7 +100,7 @@ std::optional<LockRate> late_rate(const Found& found, const LockFrame& frame, co
   return rate;
 }
 
-/// The first block from which |e| is at most that for ever; none when it takes longer than can be counted.
+/// The first block from which |e| is at most that for ever; empty when it takes longer than can be counted.
 std::optional<double> blocks_until(const Interval& length, const Found& found) {
   Interval e = found.start;
   constexpr int kMost = 100'000;
@@ -185,7 +185,7 @@ void add_evidence(Derivation& derivation, const Found& found) {
   derivation.evidence.push_back(std::move(evidence));
 }
 
-/// With which covariance to start, in floating point.
+/// The covariance with which to start, in floating point.
 std::string steady_note(const LockSearch& search, const LockProblem& problem) {
   const rigor::NearestRounding nearest;
   const double amplitude = midpoint(problem.amplitude);

@@ -1,4 +1,4 @@
-// What is proved of the block tracker for assumed tones and starts: docs/block-tracker.md.
+// The proofs for the block tracker on assumed tones and starts: docs/block-tracker.md.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LockQuestion {
   /// P(1|0) of (x1, phase at the start of the block, offset); none: that of the steady state in exact lock in
   /// the middle of the band, for the only amplitude.
   std::optional<rigor::IntervalMatrix<3>> covariance;
-  /// What is to count as settled, bins; none: twice the bound of the long run.
+  /// The error that counts as settled, bins; none: twice the bound of the long run.
   std::optional<double> settled_error;
   std::int64_t most_cells = 400'000;  ///< of one verification
 };

@@ -75,7 +75,7 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
                                 rigor::log(Interval(1.0) / power - Interval(1.0));
   found.probability =
       rigor::exp(found.start_level - found.level) + question.blocks * rigor::exp(log_constant - found.level);
-  // E log W+ <= log factor + power log W: it stays below what it tends to, or begins with.
+  // E log W+ <= log factor + power log W: it stays below the larger of its limit and its start.
   const Interval tends_to = max(log_factor, Interval(0.0)) / (Interval(1.0) - power);
   found.mean_square = Interval(2.0) * max(found.start_level, tends_to) / theta;
   found.mean_square_without_start = Interval(2.0) * tends_to / theta;

@@ -20,7 +20,7 @@ struct LossQuestion {
   std::int64_t most_cells = 400'000;                           ///< of one verification
 };
 
-/// What follows from a drift that is verified.
+/// The consequences of a verified drift.
 struct LossBound {
   rigor::Interval level;                      ///< theta radius^2 / 2
   rigor::Interval start_level;                ///< theta |e_1|^2 / 2 at most
@@ -30,7 +30,7 @@ struct LossBound {
 };
 
 /// `slew_share` is zeta > 0, by which |Ae + ws|^2 <= (1 + zeta)|Ae|^2 + (1 + 1/zeta)|ws|^2; without slew it
-/// is not used. None when the growth with that share is not below 1. Needs the upward mode.
+/// is not used. Empty when the growth with that share is not below 1. Needs the upward mode.
 [[nodiscard]] std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFrame& frame,
                                                   const LockDrift& drift, double slew_share);
 

@@ -1,5 +1,5 @@
-// Matrices of three rows in intervals, and what the bins of a block say over a cell of errors: shared by the
-// sets of bounded and of Gaussian noise.
+// Matrices of three rows in intervals, and the information in the bins of a block over a cell of errors:
+// shared by the sets for bounded and for Gaussian noise.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace veritrack::dft_block {
 
-/// The inverse of every symmetric matrix in `a`; none when one may be singular. Needs the upward mode, as all
-/// of these.
+/// The inverse of every symmetric matrix in `a`; empty when one may be singular. Needs the upward mode, as do
+/// all of these.
 [[nodiscard]] std::optional<rigor::IntervalMatrix<3>> inverse_of(const rigor::IntervalMatrix<3>& a);
 
 [[nodiscard]] rigor::IntervalMatrix<3> scaled_identity(const rigor::Interval& scale);
@@ -24,12 +24,12 @@ namespace veritrack::dft_block {
                                const rigor::IntervalMatrix<3>& c, const rigor::IntervalMatrix<3>& d,
                                const rigor::IntervalMatrix<3>& e, const rigor::IntervalMatrix<3>& f);
 
-/// Of the errors z = (first, turn, error) of a prediction, and a tone of that offset.
+/// For the errors z = (first, turn, error) of a prediction, and a tone of that offset.
 struct BlockInformation {
   rigor::IntervalMatrix<3> jacobian;  ///< H'R^-1 H at the estimate
   rigor::IntervalMatrix<3> factor;    ///< N with N N' = H'R^-1 H
   rigor::IntervalMatrix<3> secant;    ///< of h between tone and estimate: H'R^-1 (h(tone) - h) = -secant z
-  rigor::IntervalMatrix<3> more;      ///< by how much that is more than the first
+  rigor::IntervalMatrix<3> more;      ///< the excess of that over `jacobian`
 };
 
 /// `weight` is amplitude^2 / (4 r).

@@ -73,7 +73,7 @@ PointMatrix left_over(const DriftSample& one, double weight) {
   return unit - one.turned / weight - one.gain * inner.inverse() * one.gain.transpose();
 }
 
-/// By how much the tilted expectation of the squared error grows from these errors, at most.
+/// An upper bound on the growth of the tilted expectation of the squared error from these errors.
 double growth_of(const std::vector<DriftSample>& samples, double weight) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const PointMatrix unit = PointMatrix::Identity();
@@ -97,7 +97,7 @@ double growth_of(const std::vector<DriftSample>& samples, double weight) {
   return most;
 }
 
-/// With the weight for which it is least.
+/// The same with the weight for which it is least.
 void choose_growth(const std::vector<DriftSample>& samples, LockDrift& drift) {
   drift.growth = std::numeric_limits<double>::infinity();
   for (double weight = 0.3; weight < 8.0; weight *= 1.35) {

@@ -1,4 +1,4 @@
-// What the search proposes for sets about the exact lock: in floating point, and no evidence of anything.
+// Proposals of the search for sets about the exact lock: in floating point, and not evidence of anything.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ class LockSearch {
   /// The frame is a factor of the steady covariance in the middle of the band and of the amplitudes.
   explicit LockSearch(const LockProblem& problem);
 
-  /// Bounds of the covariance for errors up to that radius in the frame; none when there are none.
+  /// Bounds of the covariance for errors up to that radius in the frame; empty when there are none.
   [[nodiscard]] std::optional<LockBounds> set_for(double radius) const;
-  /// The rate of a set for errors up to that radius, a little above what samples show; none unless below 1.
+  /// The rate of a set for errors up to that radius, a little above that of samples; empty unless below 1.
   [[nodiscard]] std::optional<LockRate> rate_for(const LockBounds& set, double radius) const;
-  /// The best growth for that tilt, and a floor, a little worse than what samples show; none unless the
+  /// The best growth for that tilt, and a floor, a little worse than those of samples; empty unless the
   /// growth is below 1.
   [[nodiscard]] std::optional<LockDrift> drift_for(const LockBounds& set, double radius, double tilt) const;
   [[nodiscard]] const rigor::Matrix<3>& frame() const { return frame_; }

@@ -17,7 +17,7 @@ using Matrix3 = rigor::IntervalMatrix<3>;
 using Vector3 = rigor::IntervalVector<3>;
 using OffsetCell = rigor::IntervalVector<5>;  ///< errors, offset and amplitude
 
-/// Divided where the information changes most; nothing when no double lies between the ends.
+/// Divided where the information changes most; empty when no double lies between the ends.
 std::optional<std::array<OffsetCell, 2>> halves_of(const OffsetCell& cell) {
   const std::array weights{4.0, 0.5, 1.3, 1.3, 2.0 / cell(4).lower()};
   int widest = 0;

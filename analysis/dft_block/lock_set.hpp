@@ -3,8 +3,8 @@
 //
 // Errors z = (x1/x1_true - 1, phase error at the middle of the block, offset error) of the prediction of a
 // block, with the covariance of that prediction in the same coordinates, x1 relative to the tone's. With the
-// lower triangular C: z = C e, P = C S C'. The set: |e| <= radius, I/below <= S <= above I. One block takes
-// |e| to at most rate |e| and what noise and slew add.
+// lower triangular C: z = C e, P = C S C'. The set: |e| <= radius, I/below <= S <= above I. After one block
+// |e| is at most rate |e|, plus the contributions of noise and slew.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace veritrack::dft_block {
 
-/// A design and what is assumed of its tone, the same for every block but for the offset, which moves.
+/// A design and the assumptions on its tone, the same for every block except for the offset, which moves.
 struct LockProblem {
   rigor::Interval q1, q2, q3, r;  ///< of the filter
   int half_width = 0;             ///< L, 1 to kMostHalfWidth
@@ -35,14 +35,14 @@ struct LockBounds {
   double floor = 0.0;  ///< the process noise is at least floor I in the coordinates e
 };
 
-/// Proposed as well: what one block does to errors up to a radius.
+/// Also proposed: the effect of one block on errors up to a radius.
 struct LockRate {
   double radius = 0.0;
   double rate = 0.0;
   double weight = 0.0;  ///< of Petersen's lemma
 };
 
-/// Proposed as well: what one block does on average, in Gaussian noise, to W = exp(theta |e|^2 / 2) of errors
+/// Also proposed: the average effect of one block, in Gaussian noise, on W = exp(theta |e|^2 / 2) for errors
 /// up to a radius. With X, A and N of docs/block-tracker.md, section 7: A'(I - tilt F X N N'X F')^-1 A <=
 /// growth I, and floor <= I - tilt F X N N'X F'. The noise has theta (variance of each part of a bin) = tilt
 /// r.
@@ -58,24 +58,24 @@ struct LockDrift {
 /// The set and the problem in its coordinates.
 class LockFrame {
  public:
-  /// None when the frame is not certainly regular.
+  /// Empty when the frame is not certainly regular.
   static std::optional<LockFrame> make(const LockProblem& problem, const LockBounds& set);
 
   /// True only when the covariances stay between their bounds and errors fall at that rate, for all errors up
   /// to that radius, all offsets and amplitudes, without noise and slew: at most `most_cells` cells. Needs
   /// the upward mode.
   [[nodiscard]] bool verify(const LockRate& rate, std::int64_t most_cells) const;
-  /// True only when the covariances stay between their bounds, and growth and floor are what they are said to
-  /// be, likewise.
+  /// True only when the covariances stay between their bounds, and growth and floor have their stated
+  /// properties, likewise.
   [[nodiscard]] bool verify(const LockDrift& drift, std::int64_t most_cells) const;
-  /// C^-1 (0, pi, 1)': what a bin of slew adds to e.
+  /// C^-1 (0, pi, 1)': added to e by a bin of slew.
   [[nodiscard]] rigor::IntervalVector<3> slew_direction() const;
 
-  /// What noise and slew add to |e| at most in a block. Needs the upward mode.
+  /// An upper bound on what noise and slew add to |e| in a block. Needs the upward mode.
   [[nodiscard]] rigor::Interval disturbance() const;
-  /// |e| of all errors with |z_i| <= bounds_i, at most.
+  /// An upper bound on |e| of all errors with |z_i| <= bounds_i.
   [[nodiscard]] rigor::Interval length_of(const rigor::IntervalVector<3>& bounds) const;
-  /// |z_i| of all errors with |e| <= 1, at most.
+  /// Upper bounds on |z_i| of all errors with |e| <= 1.
   [[nodiscard]] rigor::Interval reach(int i) const;
   /// True only when the covariance P(1|0) of (x1, phase at the start of the block, offset) is within the set,
   /// for every amplitude.
@@ -86,12 +86,12 @@ class LockFrame {
   /// (x1 error, phase error, offset error, offset, amplitude).
   using Cell = rigor::IntervalVector<5>;
   [[nodiscard]] bool is_outside(const Cell& cell, double radius) const;
-  /// What a block does over a cell, in the frame: X is `centre` and up to `spread` more or less, `step` is F
+  /// The effect of a block over a cell, in the frame: X is `centre` plus or minus up to `spread`, `step` is F
   /// (I - centre secant), J = factor factor'.
   struct BlockOverCell {
     rigor::IntervalMatrix<3> centre, spread, secant, factor, step;
   };
-  /// None unless the covariances stay between their bounds.
+  /// Empty unless the covariances stay between their bounds.
   [[nodiscard]] std::optional<BlockOverCell> block_over(const Cell& cell) const;
   [[nodiscard]] bool falls_over(const Cell& cell, const LockRate& rate) const;
   [[nodiscard]] bool drifts_over(const Cell& cell, const LockDrift& drift) const;

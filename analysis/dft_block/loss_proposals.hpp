@@ -1,5 +1,5 @@
-// Sets for Gaussian noise as the search proposes them, and the first of them that is verified: for the noise
-// that is assumed, and for as much as can be proved.
+// Sets for Gaussian noise as the search proposes them, and the first verified one: for the assumed noise, and
+// for the most that can be proved.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace veritrack::dft_block {
 /// Shares of the slew that are tried (loss_bound).
 inline constexpr std::array kSlewShares{0.02, 0.05, 0.1, 0.2, 0.4};
 
-/// A set with its drift; neither depends on how loud the noise is. No evidence of anything.
+/// A set with its drift; neither depends on the size of the noise. Not evidence of anything.
 struct ProposedDrift {
   LockBounds set;
   LockDrift drift;
@@ -24,7 +24,7 @@ struct ProposedDrift {
 [[nodiscard]] std::vector<ProposedDrift> propose_drifts(const LockProblem& problem, const LockSearch& search,
                                                         double step);
 
-/// A set with the bound that follows for some noise.
+/// A set with the resulting bound for some noise.
 struct InNoise {
   LockBounds set;
   LockDrift drift;
@@ -37,8 +37,7 @@ struct InNoise {
 [[nodiscard]] std::optional<InNoise> first_verified(const LossQuestion& question,
                                                     const std::vector<InNoise>& proposed);
 
-/// Conditions, evidence and quantities of what was found for the noise of the question. Needs the upward
-/// mode.
+/// Conditions, evidence and quantities of the findings for the noise of the question. Needs the upward mode.
 void conclude_loss(theorems::Derivation& derivation, const LossQuestion& question,
                    const std::optional<InNoise>& found);
 

@@ -85,7 +85,8 @@ class SnrSearch {
     return is_met ? bound : std::nullopt;
   }
 
-  /// By bisection between what is too loud and what is quiet enough, up to 40 dB about the assumed noise.
+  /// By bisection between noise that is too loud and noise that is quiet enough, up to 40 dB about the
+  /// assumed noise.
   [[nodiscard]] std::optional<AtItsLowest> lowest(const LockFrame& frame, const ProposedDrift& one,
                                                   double share) const {
     constexpr int kAround = 40 * kPerDecibel;

@@ -33,7 +33,7 @@ Jet jet_near_zero(const Interval& d) {
     }
     coefficient = -coefficient * square_of_pi / Interval((power + 2) * (power + 3));
   }
-  // What is left out is at most the next term, and for |d| < 1/2 that is below 1e-20 in all three.
+  // The remainder is at most the next term, and for |d| < 1/2 that is below 1e-20 in all three.
   const Interval rest = symmetric(1e-20);
   return {value + rest, slope + rest, bend + rest};
 }
@@ -60,7 +60,7 @@ struct Family {
   double share;
 };
 
-/// How far offset and error are from their middles.
+/// The distances of offset and error from their middles.
 struct FromMiddle {
   Interval offset, error;
 };

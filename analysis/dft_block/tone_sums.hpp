@@ -1,4 +1,4 @@
-// The sums over the bins of a block in which a tone and an estimate of it meet, enclosed over a cell.
+// The sums over the bins of a block that involve a tone and an estimate of it, enclosed over a cell.
 //
 // With s_m(x) = (-1)^m sinc(m + x), m = -L ... L, bin M - m of a tone with the offset x is 2 pi x1^2 s_m(x)
 // e^{j (phase at the middle of the block)}: dft_block_ekf.hpp. All of these functions are entire, and their
@@ -15,7 +15,7 @@ namespace veritrack::dft_block {
 /// The largest L.
 inline constexpr int kMostHalfWidth = 8;
 
-/// Of all m; what is beyond 2L + 1 is not used.
+/// For all m; entries beyond 2L + 1 are not used.
 using TapValues = std::array<rigor::Interval, 2 * static_cast<std::size_t>(kMostHalfWidth) + 1>;
 
 /// s_m and its first two derivatives over an interval of offsets, for m = -L ... L.

@@ -11,7 +11,7 @@ namespace {
 
 using rigor::Interval;
 
-/// Where the cells end: dense at first, where fast filters still move, and wider later.
+/// The ends of the cells: dense at first, where fast filters still move, and wider later.
 template <typename Rates>
 std::vector<double> cell_ends(const Rates& lambda, std::size_t cells) {
   double slowest = lambda[0].lower();

@@ -9,8 +9,8 @@
 
 namespace veritrack::kkl_observer {
 
-/// Upper bounds on sup |sum_i c_i e_i| over all inputs |d| <= 1 that the filters e_i' = -lambda_i e_i + d, at
-/// rest long ago, can have had: the integral of |k|, k(t) = sum_i c_i exp(-lambda_i t), t > 0.
+/// Upper bounds on sup |sum_i c_i e_i| over all inputs |d| <= 1 of the filters e_i' = -lambda_i e_i + d,
+/// which were at rest long ago: the integral of |k|, k(t) = sum_i c_i exp(-lambda_i t), t > 0.
 ///
 /// The time axis is cut into cells. Where k certainly has one sign on a cell the integral of |k| is |sum_i
 /// c_i (integral of exp(-lambda_i t))|; elsewhere it is at most the cell's width times the largest |k| there,
@@ -21,11 +21,12 @@ class KernelNorm {
   static constexpr std::size_t kFilters = M;
   using Coefficients = std::array<rigor::Interval, kFilters>;
 
-  /// `lambda`: filter rates, certainly positive. `cells`: how many; more are tighter. Needs the upward mode.
+  /// `lambda`: filter rates, certainly positive. `cells`: their number; more are tighter. Needs the upward
+  /// mode.
   KernelNorm(const Coefficients& lambda, std::size_t cells);
 
-  /// For every choice of coefficients in the intervals. Not finite when that is all that can be said. Needs
-  /// the upward mode.
+  /// For every choice of coefficients in the intervals. Not finite when there is no bound. Needs the upward
+  /// mode.
   [[nodiscard]] rigor::Interval upper_bound(const Coefficients& coefficients) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a disturbance of which only a bound is known does to the estimates of a KKL observer with four
+// The effect of a disturbance that is known only by a bound on the estimates of a KKL observer with four
 // filters.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace veritrack::kkl_observer {
 
 /// The variables are (w, p, -, y1, y2), with (y1, y2) the move of N'xi / A. At each such point the errors are
 /// linear in the filters' moves u, sums q_j v_j'(F^2 + s) u over the rows v_j of [lambda 1]^+ and N', whose
-/// largest value KernelNorm bounds. The lowest amplitude is the worst for what the disturbance does, the
+/// largest value KernelNorm bounds. The lowest amplitude is the worst for the effect of the disturbance, the
 /// highest for the remaining effect of the start. The functions have no derivatives.
 class BoundedErrors {
   using Interval = rigor::Interval;
@@ -63,7 +63,7 @@ class BoundedErrors {
   static constexpr std::size_t kCells = 120;
   using Weights = std::array<Interval, 4>;
 
-  /// What is known at one cell of the search.
+  /// The bounds at one cell of the search.
   struct State {
     Map::Signal<Interval> signal;
     std::array<Interval, 2> y;
@@ -77,7 +77,7 @@ class BoundedErrors {
     return v.unaryExpr([](const auto& x) { return x.value(); });
   }
 
-  /// The lower end of a value, with nothing known of derivatives.
+  /// The lower end of a value, with unknown derivatives.
   template <typename Number>
   [[nodiscard]] static Number without_slopes(const Interval& value) {
     Interval lowest(value.lower());
@@ -90,8 +90,8 @@ class BoundedErrors {
     }
   }
 
-  /// The largest sum_j q_j v_j'(F^2 + s) u by the disturbance, relative to the lowest amplitude: at the
-  /// middle of q and s, and by how much it can change from there.
+  /// The largest sum_j q_j v_j'(F^2 + s) u by the disturbance, relative to the lowest amplitude: its value at
+  /// the middle of q and s, and its largest change from there.
   [[nodiscard]] Interval disturbed(const Weights& q, const Interval& s) const;
 
   /// The same for the remaining effect of the start, relative to the signal's amplitude.

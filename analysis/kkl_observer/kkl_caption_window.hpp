@@ -1,6 +1,6 @@
 // The captions of Figures 1 to 6 of the KKL observer's paper (trackers/kkl_observer/kkl_observer.hpp): means
-// and deviations of the estimates in steady state. The paper says neither over which time they are taken nor
-// in which phase the disturbance is. Simulation: it proves nothing.
+// and deviations of the estimates in steady state. The paper states neither the time over which they are
+// taken nor the phase of the disturbance. Simulation: it proves nothing.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ inline constexpr double kSectionVDisturbance = 0.2;  ///< a, signal units
 /// frequency, rad/s.
 [[nodiscard]] long section_v_steps(double disturbance_frequency);
 
-/// What the paper leaves open.
+/// The choices that the paper leaves open.
 struct CaptionWindow {
   double begin = 5.687;  ///< s
   double end = 25.674;   ///< s
@@ -35,10 +35,10 @@ inline constexpr CaptionWindow kCaptionWindow{};
 struct CaptionStatistics {
   SteadyStatistics amplitude;            ///< signal units; NaN unless there is an estimate at every moment
   SteadyStatistics frequency;            ///< rad/s; the same
-  SteadyStatistics amplitude_where_any;  ///< of the moments that have an estimate
+  SteadyStatistics amplitude_where_any;  ///< over the moments that have an estimate
   SteadyStatistics frequency_where_any;
   double without_estimate = 0.0;  ///< share of the moments at which the estimated x3 is not positive
-  double largest_ell = 0.0;       ///< up to which mu of (9) vanishes at every moment
+  double largest_ell = 0.0;       ///< the largest ell for which mu of (9) vanishes at every moment
 };
 
 /// In steady state: the filters with these rates (1/s) at their response to both sinusoids, in closed form.

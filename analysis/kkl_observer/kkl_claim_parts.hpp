@@ -1,4 +1,4 @@
-// The parts of the derivation "kkl-paper" and how they are made.
+// The parts of the derivation "kkl-paper" and their construction.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace veritrack::kkl_observer::detail {
 /// The quantity, not applicable where its value is empty.
 [[nodiscard]] theorems::Quantity bounded(theorems::Quantity quantity);
 
-/// Adds what is said of gamma, for four to eight filters. Needs the upward mode.
+/// Adds the statements on gamma, for four to eight filters. Needs the upward mode.
 void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& derivation);
 
 }  // namespace veritrack::kkl_observer::detail

@@ -24,7 +24,7 @@ using rigor::Verdict;
 using theorems::Condition;
 using theorems::Sense;
 
-/// The claims that hold, or fail, for every design.
+/// The claims that are true, or false, for every design.
 std::vector<Condition> claims_of_every_design() {
   std::vector<Condition> claims;
   claims.push_back(condition(

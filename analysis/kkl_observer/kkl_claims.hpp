@@ -11,7 +11,7 @@
 
 namespace veritrack::kkl_observer {
 
-/// What the claims are about.
+/// The subject of the claims.
 struct KklClaimsQuestion {
   std::vector<rigor::Interval> lambda;  ///< four to eight filter rates, 1/s; certainly positive and distinct
   rigor::Interval frequency;            ///< rad/s; certainly positive
@@ -37,7 +37,7 @@ struct SignalWitness {
 };
 
 /// A signal of the range for which mu of (9) certainly does not vanish on T, so that gamma(T(x)) is not x:
-/// (L'L + mu) (gamma - x) = -mu x. Nothing when none was found. Needs the upward mode. For four to eight
+/// (L'L + mu) (gamma - x) = -mu x. Empty when none was found. Needs the upward mode. For four to eight
 /// filters.
 template <int M>
 [[nodiscard]] std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<M>& range,
@@ -47,8 +47,8 @@ template <int M>
 /// double, for four filters.
 [[nodiscard]] SignalWitness propose_least_excited(const Eigen::Vector4d& lambda, double frequency);
 
-/// A bound on how fast gamma changes with xi (in the units of x per unit of xi) along every path in lower <=
-/// |xi| <= upper. Empty when not finite. Needs the upward mode.
+/// A bound on the rate at which gamma changes with xi (in the units of x per unit of xi) along every path in
+/// lower <= |xi| <= upper. Empty when not finite. Needs the upward mode.
 ///
 /// With g = |lambda|^2 |1|^2 - (lambda'1)^2, det Phi >= |M xi|^2 + mu g >= min(g, 1/2) ell |xi|^2, and the
 /// trace of Phi bounds the product of its two larger eigenvalues: lambda_min >= det / (trace / 2)^2. Then Phi

@@ -60,7 +60,7 @@ double solve_as_stated(const Midpoints<M>& at) {
     return result;
   };
   search::ConstrainedProblem problem;
-  constexpr double kUnbounded = 1e20;  // what Ipopt takes for infinite
+  constexpr double kUnbounded = 1e20;  // infinite for Ipopt
   problem.lower = Eigen::Vector3d(-kUnbounded, -kUnbounded, at.frequency_low * at.frequency_low);
   problem.upper = Eigen::Vector3d(kUnbounded, kUnbounded, at.frequency_high * at.frequency_high);
   double scale = 1.0;
@@ -125,11 +125,11 @@ theorems::Quantity quantity(std::string name, std::string symbol, std::string fo
   return result;
 }
 
-/// How a solver's value compares with the enclosure: a sentence, since a solver proves nothing and can be as
-/// far off as its tolerance without being wrong.
+/// A sentence that compares a solver's value with the enclosure: a solver proves nothing and can be off by
+/// its tolerance without being wrong.
 std::string comparison(const std::string& solver, double value, const Interval& enclosure) {
   const Interval point(value);
-  // cannot bind (enclosure): it chooses what is said of a solver's value, which decides nothing.
+  // cannot bind (enclosure): it chooses the words about a solver's value, which decides nothing.
   if (!rigor::is_finite(enclosure) || !certainly_positive(enclosure)) {
     return "Without a verified enclosure nothing can be said about " + solver + "'s value.";
   }

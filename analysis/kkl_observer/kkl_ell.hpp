@@ -23,10 +23,10 @@ using KklRange = KklRangeOf<4>;
 template <int M>
 [[nodiscard]] search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<M>& range);
 
-/// The derivation "kkl-ell" from what enclose_ell found for the range: quantities ell, ell_ipopt, ell_nlopt,
-/// ell_nlopt_global, argmin_omega, of which only ell and argmin_omega are proved; conditions that ell is
-/// enclosed to 1e-9 and is positive. How each solver's value compares with the enclosure is in the notes.
-/// Opens its own rounding scopes. For four to eight filters.
+/// The derivation "kkl-ell" from the result of enclose_ell for the range: quantities ell, ell_ipopt,
+/// ell_nlopt, ell_nlopt_global, argmin_omega, of which only ell and argmin_omega are proved; conditions that
+/// ell is enclosed to 1e-9 and is positive. The notes compare each solver's value with the enclosure. Opens
+/// its own rounding scopes. For four to eight filters.
 template <int M>
 [[nodiscard]] theorems::Derivation derive_kkl_ell(const KklRangeOf<M>& range,
                                                   const search::VerifiedMinimum<1>& minimum);

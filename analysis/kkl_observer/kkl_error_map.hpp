@@ -1,5 +1,5 @@
-// How the estimates of the KKL observer (trackers/kkl_observer/kkl_observer.hpp) move when its filters do,
-// for any number of filters and as long as mu of (9) vanishes.
+// The response of the estimates of the KKL observer (trackers/kkl_observer/kkl_observer.hpp) to moves of its
+// filters, for any number of filters and as long as mu of (9) vanishes.
 //
 // Let the filters be at xi = A (T(x) + u), T at amplitude 1, s = x3 = w^2. With mu = 0, gamma is the
 // least-squares solution of x1 lambda + x2 1 - x3 xi = F^2 xi, which scales with A in x1 and x2 and not at
@@ -11,7 +11,7 @@
 // kkl_excitation_ratio.hpp, and |M xi|^2 = (|lambda|^2 |1|^2 - (lambda'1)^2) A^2 |y|^2.
 //
 // The response to another sinusoid of frequency W is T at that frequency, for which N'(F^2 + s) T_W =
-// (s - W^2) N'T_W: it enters x3_hat as the mean of s and W^2 that it is,
+// (s - W^2) N'T_W: it enters x3_hat as a mean of s and W^2,
 //     x3 - s = (W^2 - s) y'z / |y|^2,   z its share of y.
 #pragma once
 
@@ -70,7 +70,7 @@ class KklErrorMap {
   /// |lambda|^2 |1|^2 - (lambda'1)^2, so that |M xi|^2 is this times |N'xi|^2.
   [[nodiscard]] const Scalar& gram_determinant() const { return gram_; }
 
-  /// A signal of amplitude 1, and where the filters are in it.
+  /// A signal of amplitude 1, and the place of the filters in it.
   template <typename Number>
   struct Signal {
     Number frequency;  ///< w, rad/s

@@ -7,11 +7,11 @@
 // second divided differences of f(l) = (l x1 + x2) / (l^2 + s); with D_i = lambda_i^2 + s and the elementary
 // symmetric polynomials e1, e2, e3 of the triple,
 //     f[i, j, k] = ((e3 - s e1) x1 + (e2 - s) x2) / (D_i D_j D_k).
-// Trace and determinant of the pencil then are sums of squares: nothing cancels that is large, whatever the
-// range of s. In the determinant nothing cancels at all: A'M'M A is g times the Schur complement of the Gram
-// matrix of (lambda, 1) in that of (lambda, 1, A), g the determinant of the first, so that (Cauchy and Binet)
-// its determinant is g times the sum over quadruples of filters of det(lambda, 1, A)^2, and that determinant
-// is the quadruple's Vandermonde determinant over its D_i.
+// Trace and determinant of the pencil then are sums of squares: no large terms cancel, whatever the range of
+// s. In the determinant nothing cancels at all: A'M'M A is g times the Schur complement of the Gram matrix of
+// (lambda, 1) in that of (lambda, 1, A), g the determinant of the first, so that (Cauchy and Binet) its
+// determinant is g times the sum over quadruples of filters of det(lambda, 1, A)^2, and that determinant is
+// the quadruple's Vandermonde determinant over its D_i.
 #pragma once
 
 #include <Eigen/Core>
@@ -116,7 +116,7 @@ class ExcitationRatio {
     unsigned others;
     Scalar weight;
   };
-  /// Of a triple and another filter l: e3 - s e1 - (e2 - s) l = constant + slope s.
+  /// For a triple and another filter l: e3 - s e1 - (e2 - s) l = constant + slope s.
   struct CrossedTerm : Term {
     Scalar constant, slope;
   };

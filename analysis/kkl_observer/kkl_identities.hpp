@@ -37,7 +37,7 @@ template <std::size_t Variables, typename Polynomial>
 /// (3) for T of (6) with x1' = -x2, x2' = x3 x1: the residual, times lambda^2 + x3, is the zero polynomial.
 [[nodiscard]] rigor::Verdict transform_is_invariant();
 
-/// The same with x1' = x2, x2' = -x3 x1, the sign that the printed phase formula belongs to: REFUTED.
+/// The same with x1' = x2, x2' = -x3 x1, the sign of the printed phase formula: REFUTED.
 [[nodiscard]] rigor::Verdict transform_is_invariant_with_other_sign();
 
 /// det(L'L) = |M xi|^2 for the printed M, for all rates and all xi.

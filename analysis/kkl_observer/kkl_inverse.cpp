@@ -1,4 +1,4 @@
-// What the paper claims of gamma, the inverse of T: where it inverts, and how fast it changes.
+// The paper's claims on gamma, the inverse of T: where it inverts, and how fast it changes.
 #include <Eigen/Core>
 #include <numbers>
 #include <utility>
@@ -195,7 +195,7 @@ Interval continuity_modulus(const rigor::IntervalVector<M>& lambda, const Interv
       gram += square(lambda(i) - lambda(j));
     }
   }
-  // Of the matrix M of (9), squared: each difference of rates occurs in all triples of filters with both.
+  // The square of the matrix M of (9): each difference of rates occurs in all triples of filters with both.
   const Interval matrix_norm = Interval(M - 2) * gram;
   const Interval four(4.0);
   const Interval filters(M);

@@ -56,8 +56,8 @@ KklRobustness search_errors(const Errors& errors, const Question& question) {
   const auto square = minimize(0.2, std::numeric_limits<double>::infinity(),
                                [&](const auto& v) { return errors.relative_square(v); });
   result.smallest_relative_square = Interval(square.lower);
-  // cannot bind (result.smallest_relative_square): it spares work; frequency_condition asks the same of what
-  // is proved.
+  // cannot bind (result.smallest_relative_square): it saves work; frequency_condition requires the same of
+  // the proved number.
   if (!certainly_positive(result.smallest_relative_square)) {
     return result;
   }
@@ -70,7 +70,7 @@ KklRobustness search_errors(const Errors& errors, const Question& question) {
   return result;
 }
 
-/// With `search`, which bounds the errors of filters that deviate so much after settling.
+/// With `search`, which bounds the errors of filters that deviate by this much after settling.
 template <int M, typename Search>
 KklRobustness bound_errors(const KklRobustnessQuestionOf<M>& question, const Search& search) {
   const rigor::UpwardRounding upward;

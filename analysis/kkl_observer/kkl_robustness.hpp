@@ -1,4 +1,4 @@
-// What a disturbance does to the estimates of the KKL observer (trackers/kkl_observer/kkl_observer.hpp),
+// The effect of a disturbance on the estimates of the KKL observer (trackers/kkl_observer/kkl_observer.hpp),
 // bounded for every signal of a range: the robustness that its paper leaves open.
 #pragma once
 
@@ -30,24 +30,25 @@ using Disturbance = std::variant<NoDisturbance, BoundedDisturbance, SinusoidalDi
 template <int M>
 using KklFilters = std::array<rigor::Interval, static_cast<std::size_t>(M)>;
 
-/// What is asked of M filters.
+/// A question about M filters.
 template <int M>
 struct KklRobustnessQuestionOf {
   KklRangeOf<M> range;
   rigor::Interval amplitude;  ///< of the signal, certainly positive, signal units
   rigor::Interval ell;        ///< in use in (9)
   Disturbance disturbance;
-  /// Between samples, s, of a program in double precision that takes the input to be straight between them;
-  /// the disturbance is that of the samples. None: filters in continuous time (kAllowedDeviation).
+  /// The time between samples, s, of a program in double precision that takes the input to be straight
+  /// between them; the disturbance is that of the samples. None: filters in continuous time
+  /// (kAllowedDeviation).
   std::optional<rigor::Interval> interval;
   double relative_tolerance = 0.05;  ///< of the bounds; a wish, not a condition
   std::int64_t cells = 120'000;      ///< at most, for each bound
 };
-/// Of the paper's four filters.
+/// The question for the paper's four filters.
 using KklRobustnessQuestion = KklRobustnessQuestionOf<4>;
 
-/// Bounds that hold from the settling time on, for every signal of the range and filters that start at rest.
-/// They are about estimates that are computed in double precision.
+/// Bounds from the settling time on, for every signal of the range and filters that start at rest. They are
+/// about estimates that are computed in double precision.
 struct KklRobustness {
   rigor::Interval settling_time;          ///< s
   rigor::Interval frequency_error_bound;  ///< rad/s; empty when none was found
@@ -55,9 +56,10 @@ struct KklRobustness {
   /// Twice the smallest |M xi|^2 / |xi|^2 that the disturbed filters can reach: mu of (9) vanishes for any
   /// ell up to its lower end. Empty when not found.
   rigor::Interval largest_ell;
-  /// Is there a bound on how far the program's filters are from their differential equations?
+  /// Whether there is a bound on the distance of the program's filters from their differential equations.
   bool knows_filters = false;
-  /// What rounding of the static map adds, and is in the bounds, rad/s. Empty when there is no bound.
+  /// The contribution of rounding of the static map, included in the bounds, rad/s. Empty when there is no
+  /// bound.
   rigor::Interval rounding;
   /// A lower bound on x3_hat / x3, which has to be positive for a frequency to exist.
   rigor::Interval smallest_relative_square;
@@ -65,7 +67,7 @@ struct KklRobustness {
   /// for a sinusoidal disturbance its phase (rad) and frequency (rad/s; infinite when the search ended
   /// there). With more than four filters the first two only.
   std::array<double, 5> worst{};
-  std::int64_t cells = 0;  ///< looked at
+  std::int64_t cells = 0;  ///< examined
 };
 
 /// Bounds the errors of four to eight filters by branch and bound, in parallel: with four over signal and
@@ -74,7 +76,7 @@ struct KklRobustness {
 template <int M>
 [[nodiscard]] KklRobustness bound_kkl_errors(const KklRobustnessQuestionOf<M>& question);
 
-/// The same over the signal alone, for four filters, too.
+/// The same over the signal alone, also for four filters.
 template <int M>
 [[nodiscard]] KklRobustness bound_kkl_errors_over_signals(const KklRobustnessQuestionOf<M>& question);
 

@@ -101,7 +101,7 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestionOf<M>& que
   const SampledErrors sampled = sample_errors(question);
   const rigor::UpwardRounding upward;
   const theorems::Condition regular = regular_condition(found, question.ell);
-  // Bounds of the observer with a smaller ell are none of the one in use.
+  // Bounds for the observer with a smaller ell are not bounds for the one in use.
   const bool is_regular = regular.verdict == Verdict::proved;
   const theorems::Condition exists = frequency_condition(found, is_regular);
   const bool applies = is_regular && exists.verdict == Verdict::proved;

@@ -7,8 +7,7 @@
 
 namespace veritrack::kkl_observer {
 
-/// Signal frequency (rad/s), its phase (rad), its amplitude, and two numbers that say where the disturbance
-/// is.
+/// Signal frequency (rad/s), its phase (rad), its amplitude, and two numbers that locate the disturbance.
 inline constexpr int kKklSearchVariables = 5;
 using KklSearchBox = rigor::IntervalVector<kKklSearchVariables>;
 

@@ -78,7 +78,7 @@ constexpr std::array<Caption, 3> kCaptions{{{1.9999, 0.0947, 2.9956, 0.1164, 1e-
                                             {2.0, 0.0108, 3.0, 0.0142, 1e-1},
                                             {2.0, 0.0011, 3.0, 0.0014, 1e-1}}};
 
-/// How many numbers of the captions come out: to the last digit, and within a unit of it.
+/// The number of caption values that are reproduced: to the last digit, and within a unit of it.
 struct Agreement {
   int exact = 0;
   int close = 0;

@@ -41,15 +41,15 @@ inline constexpr std::array<double, 3> kSectionVDisturbances{10.0, 100.0, 1000.0
                                             double disturbance_frequency);
 
 /// The same in steady state (the filters' response to the two sinusoids, in closed form) over one window of
-/// 20 s, with a phase of the disturbance; without samples. The captions of Figures 1 to 6 do not say over
-/// what their means and deviations are taken. This choice reproduces all twelve: t from 5.687 to 25.674 s, y
-/// = 2 sin 3t + 0.2 sin(w t + 6.109). Holds round-to-nearest.
+/// 20 s, with a phase of the disturbance; without samples. The captions of Figures 1 to 6 do not state the
+/// window of their means and deviations. This choice reproduces all twelve: t from 5.687 to 25.674 s, y = 2
+/// sin 3t + 0.2 sin(w t + 6.109). Holds round-to-nearest.
 [[nodiscard]] SectionVRun run_caption_window(const Eigen::Vector4d& lambda, double ell,
                                              double disturbance_frequency);
 
 /// The adaptive observer (trackers/kkl_observer/adaptive_oscillator_observer.hpp) on the same signal, with
-/// parameters that are ours: the paper's are in a work that was not at hand. Statistics over the last 20 pi
-/// of 60 pi seconds.
+/// our own parameters: the paper's are in a work that was not available. Statistics over the last 20 pi of 60
+/// pi seconds.
 [[nodiscard]] SectionVRun run_adaptive_section_v(double disturbance_frequency);
 
 /// The derivation "kkl-section-v": means and deviations for this ell beside those printed in the captions of

@@ -15,7 +15,7 @@ namespace {
 
 using rigor::Interval;
 
-/// The largest |c'e| over what a disturbance can do to the filters, roughly.
+/// Roughly the largest |c'e| over the effects of a disturbance on the filters.
 template <typename Filters>
 double largest_response(const Filters& c, const Filters& lambda, const Disturbance& disturbance) {
   if (const auto* sinusoidal = std::get_if<SinusoidalDisturbance>(&disturbance)) {

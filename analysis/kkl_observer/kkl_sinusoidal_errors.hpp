@@ -1,4 +1,4 @@
-// What a sinusoidal disturbance, or none, does to the estimates of a KKL observer with four filters.
+// The effect of a sinusoidal disturbance, or of none, on the estimates of a KKL observer with four filters.
 #pragma once
 
 #include <array>

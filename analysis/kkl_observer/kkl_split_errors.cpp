@@ -18,7 +18,7 @@ Interval upper_end(const Interval& x) {
   return Interval(x.upper());
 }
 
-/// What is at least both.
+/// A number that is at least both.
 Reach larger_of(const Reach& x, const Reach& y) {
   return {max(x.driven, y.driven), max(x.left, y.left)};
 }
@@ -180,7 +180,7 @@ typename SplitErrors<M>::State SplitErrors<M>::state(const Box& box) const {
     at.error = at.second = {Interval(), Interval()};
     return at;
   }
-  // How far the direction of y0 is from that of the frame, at most.
+  // An upper bound on the distance of the direction of y0 from that of the frame.
   const auto basis = frame(at);
   const Interval norm = sqrt(at.squared_norm);
   Interval squares(0.0);
@@ -279,7 +279,7 @@ Interval SplitErrors<M>::amplitude_error(const Box& box) const {
     const auto at_end = [&](const Interval& f) { return driven(weights, at, f * (twice + f)); };
     return larger_of(at_end(low), at_end(high)) + at.second * abs(third);
   };
-  // What d gets of e.
+  // The contribution of e to d.
   const auto of_e = [&](const Interval& f) {
     return (pulled_2 + at.signal.cosine / (twice + f)) / (frequency + f);
   };

@@ -1,5 +1,5 @@
-// What a disturbance does to the estimates of a KKL observer with any number of filters: the part of the
-// errors that is linear in what it does to the filters, and a bound on the rest.
+// The effect of a disturbance on the estimates of a KKL observer with any number of filters: the part of the
+// errors that is linear in its effect on the filters, and a bound on the rest.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace veritrack::kkl_observer {
 
-/// How large a function of the filters' moves gets over the amplitude A: by the disturbance (at the lowest
-/// A), and by what is left of the start.
+/// The largest size of a function of the filters' moves over the amplitude A: from the disturbance (at the
+/// lowest A), and from the remaining effect of the start.
 struct Reach {
   rigor::Interval driven, left;
   [[nodiscard]] rigor::Interval sum() const { return driven + left; }
@@ -77,7 +77,7 @@ class SplitErrors {
   using Weights = std::array<Interval, Map::kFilters>;
   static constexpr std::size_t kFirstAcross = 2;
 
-  /// What is known at one cell of the search.
+  /// The bounds at one cell of the search.
   struct State {
     typename Map::template Signal<Interval> signal;
     Weights direction;      ///< q
@@ -91,7 +91,7 @@ class SplitErrors {
   static Box values(const Variables<rigor::Dual<Interval, kVariables>>& v) {
     return v.unaryExpr([](const auto& x) { return x.value(); });
   }
-  /// The lower end of a value, with nothing known of derivatives.
+  /// The lower end of a value, with unknown derivatives.
   template <typename Number>
   [[nodiscard]] static Number without_slopes(const Interval& value) {
     const Interval lowest(value.lower());
@@ -105,9 +105,9 @@ class SplitErrors {
   }
 
   [[nodiscard]] Interval norm_of(const Filters& coefficients) const;
-  /// Of the sum of weights_j row_j'u.
+  /// The reach of the sum of weights_j row_j'u.
   [[nodiscard]] Reach moved(const Weights& weights) const;
-  /// Of the sum of weights_j row_j'(F^2 + s + shift) u.
+  /// The reach of the sum of weights_j row_j'(F^2 + s + shift) u.
   [[nodiscard]] Reach driven(const Weights& weights, const State& at, const Interval& shift) const;
   /// q over the cell, by the mean-value form.
   void find_direction(const Box& box, State& at) const;

@@ -5,18 +5,18 @@
 
 namespace veritrack::kkl_observer {
 
-/// Within what the rates are looked for.
+/// The limits of the search for rates.
 struct KklTuningLimits {
   double slowest_rate = 0.1;   ///< 1/s
   double fastest_rate = 50.0;  ///< 1/s
-  double settling_time = 0.0;  ///< s: at most, as propose_settling_time has it; 0: that of the rates given
+  double settling_time = 0.0;  ///< s: at most, by propose_settling_time; 0: that of the given rates
   int evaluations = 250;       ///< of the search
 };
 
-/// Rates for which a small largest frequency error is seen in simulation (sample_errors) under the question's
-/// disturbance, among those that settle in time: NLopt, from the rates given, in the logarithms of the
-/// slowest rate and of the ratios of neighbours. The better of what was given and what was found. A proposal:
-/// what it is worth bound_kkl_errors proves. Rounded to four digits, so that they can be written down.
+/// Rates with a small largest frequency error in simulation (sample_errors) under the question's disturbance,
+/// among those that settle in time: NLopt, from the given rates, in the logarithms of the slowest rate and of
+/// the ratios of neighbours. Returns the better of the given and the found rates. A proposal:
+/// bound_kkl_errors proves its worth. Rounded to four digits, so that they can be written down.
 [[nodiscard]] Eigen::Vector4d propose_rates(const KklRobustnessQuestion& question,
                                             const KklTuningLimits& limits);
 

@@ -14,7 +14,7 @@ namespace {
 
 using trackers::oscillator_state;
 
-/// Where the filters are when the disturbance has been bound * sign(kernel) for ever, the kernel being that
+/// The state of the filters when the disturbance has always been bound * sign(kernel), the kernel being that
 /// of the first-order frequency error.
 template <int M>
 Eigen::Matrix<double, M, 1> bang_bang(const KklErrorMap<double, M>& map, double frequency, double phase,

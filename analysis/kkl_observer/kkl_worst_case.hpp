@@ -1,12 +1,12 @@
-// How bad a disturbance of the KKL observer gets in simulation: what the proved bounds are to be compared
-// with. It proves nothing.
+// The worst effect of a disturbance on the KKL observer in simulation, for comparison with the proved bounds.
+// It proves nothing.
 #pragma once
 
 #include "analysis/kkl_observer/kkl_robustness.hpp"
 
 namespace veritrack::kkl_observer {
 
-/// Errors that were seen.
+/// Observed errors.
 struct SampledErrors {
   double frequency = 0.0;  ///< rad/s
   double amplitude = 0.0;  ///< signal units

@@ -13,7 +13,7 @@ namespace veritrack::kkl_observer {
 /// p) for all phases p and all W from the lowest frequency up: the largest |sum_i c_i / (lambda_i + jW)|.
 ///
 /// The periods r = 1 / W are cut into cells, from 0 on. With a and b the sum and its derivative in the middle
-/// of a cell, |a + b t| is largest at an end; of the second derivatives a bound is known. For four to eight
+/// of a cell, |a + b t| is largest at an end; the second derivatives have a known bound. For four to eight
 /// filters.
 template <int M>
 class ResponseNorm {

@@ -1,5 +1,5 @@
-// The loop that a constant controller u = -K y closes around a plant with unit delay: is it stable, for which
-// plant gains, and how much of a disturbance of each frequency reaches the output.
+// The loop that a constant controller u = -K y closes around a plant with unit delay: whether it is stable,
+// for which plant gains, and the share of a disturbance of each frequency that reaches the output.
 //
 // Plant A_1 x_k = B_1 u_{k-1}, output y = x + v, controller K = N/D, all polynomials in q^-1. Then
 //     (A_1 D + g q^-1 B_1 N) y = A_1 D v,   so S = A_1 D/(A_1 D + g q^-1 B_1 N) with the plant gain g = 1.
@@ -34,7 +34,7 @@ struct FrozenLoop {
 
   /// A_1 D + gain q^-1 B_1 N. Needs the upward mode.
   [[nodiscard]] Polynomial characteristic(const rigor::Interval& gain) const;
-  /// Are all poles within |z| < radius when the plant's gain is `gain` times what it is here? Needs the
+  /// Are all poles within |z| < radius when the plant's gain is `gain` times the present one? Needs the
   /// upward mode.
   [[nodiscard]] rigor::Verdict has_poles_within(const rigor::Interval& radius,
                                                 const rigor::Interval& gain) const;
@@ -43,8 +43,8 @@ struct FrozenLoop {
   [[nodiscard]] rigor::Verdict is_stable_for_gains(const rigor::Interval& gains) const;
   /// |S| at a frequency, rad/sample. Needs the upward mode.
   [[nodiscard]] rigor::Interval sensitivity(const rigor::Interval& frequency) const;
-  /// The largest |S| over all frequencies, by branch and bound: what it encloses is the largest of the lower
-  /// ends when the coefficients are wide, and no |S| is above its upper end. Opens its own rounding scope.
+  /// The largest |S| over all frequencies, by branch and bound: when the coefficients are wide, it encloses
+  /// the largest of the lower ends, and no |S| is above its upper end. Opens its own rounding scope.
   [[nodiscard]] rigor::Interval peak_sensitivity() const;
 };
 

@@ -62,7 +62,7 @@ InverseFilter::InverseFilter(const std::vector<Interval>& coefficients)
   stable_ = rigor::certainly_positive(rest) && rigor::certainly_positive(weighted_rest) &&
             rigor::is_finite(weighted_size);
   if (stable_) {
-    // A little more than that, so that another arithmetic, with another h, finds it, too.
+    // A little more than that, for a checker with another arithmetic and another h.
     constexpr double kRoom = 1.0 + 0x1p-30;
     norm_ = Interval(kRoom) * size / rest;
     weighted_norm_ = Interval(kRoom) * weighted_size / weighted_rest;

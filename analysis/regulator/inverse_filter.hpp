@@ -1,5 +1,5 @@
-// The inverse 1/A of a polynomial A = a_0 + a_1 q^-1 + ... + a_p q^-p, whose coefficients are intervals: that
-// it is stable, and how large it makes bounded signals.
+// The inverse 1/A of a polynomial A = a_0 + a_1 q^-1 + ... + a_p q^-p, whose coefficients are intervals:
+// whether it is stable, and its gain for bounded signals.
 //
 // A finite filter h, in doubles, stands for 1/A. With r = A h - 1, also finite, |r|_1 < 1 implies that A h,
 // and so A, has no zero with |z^-1| <= 1 (|1 + r| >= 1 - |r|_1 there), and the impulse response g of 1/A
@@ -16,7 +16,7 @@
 
 namespace veritrack::regulator {
 
-/// What is proved of 1/A. Upper bounds.
+/// The proved bounds on 1/A, from above.
 class InverseFilter {
  public:
   /// `coefficients` a_0, ..., a_p. Needs the upward mode.
@@ -32,7 +32,7 @@ class InverseFilter {
   [[nodiscard]] const rigor::Interval& weighted_norm() const { return weighted_norm_; }
   /// sum of |g_i| over i >= `first`. Empty unless stable. Needs the upward mode.
   [[nodiscard]] rigor::Interval tail(std::size_t first) const;
-  /// So many coefficients has h: the tail is not smaller behind them.
+  /// The number of coefficients of h: the tail is not smaller behind them.
   [[nodiscard]] std::size_t size() const { return response_.size(); }
 
  private:

@@ -32,10 +32,10 @@ Interval sum_of_sizes(const std::vector<Interval>& coefficients, Interval (*weig
   return sum;
 }
 
-/// A thousandth on top of what is found on cells, so that other cells find it, too.
+/// A thousandth more than the bound on cells, for a checker with other cells.
 constexpr double kRoom = 1.001;
 
-/// Bounds of what drives the output, 1/A_1 of it, and the output.
+/// Bounds of the signal that drives the output, of 1/A_1 of it, and of the output.
 class Loop {
  public:
   explicit Loop(const RegulatorQuestion& question)
@@ -122,7 +122,7 @@ class Loop {
     return Interval(kRoom) * most;
   }
 
-  /// With a slew, the error is about the turn to the next sample or the one from the last: either will do.
+  /// With a slew, the error is about the turn to the next sample or the one from the last: either is covered.
   [[nodiscard]] Interval mismatch(const Cell& cell, const Interval& error) const {
     const Interval most = error + question_.slew;
     if (!rigor::certainly_less(most, rigor::pi())) {
@@ -135,21 +135,21 @@ class Loop {
     return question_.amplitude *
            (mismatch(cell, error) * (cell.plant + question_.slew * bend_) + question_.slew * drift_);
   }
-  /// |A_1 y| in the long run, but for straight_noise.
+  /// |A_1 y| in the long run, without straight_noise.
   [[nodiscard]] Interval drive(const Interval& error) const {
     return largest([&](const Cell& cell) {
       return of_tone(cell, error) + mismatch(cell, error) * size_ * question_.noise;
     });
   }
-  /// Of the output: -2 cos(omega_k) n_{k-1} + n_{k-2}, whatever the plant, and that the frequency was another
-  /// one.
+  /// A part of the output: -2 cos(omega_k) n_{k-1} + n_{k-2}, whatever the plant, and the effect of an
+  /// earlier frequency being different.
   [[nodiscard]] Interval straight_noise() const {
     const Interval two(2.0);
     return (Interval(1.0) + two * largest_cosine() +
             two * question_.slew * size_ * inverse_plant_.weighted_norm()) *
            question_.noise;
   }
-  /// |A_1 y| at the first samples, where the regulator knows nothing of the tone before sample 0; but for
+  /// |A_1 y| at the first samples, where the regulator has no samples of the tone before sample 0; without
   /// straight_noise.
   [[nodiscard]] std::vector<Interval> first_drives(const Interval& error) const {
     const Interval off = largest([&](const Cell& cell) { return mismatch(cell, error); });
@@ -159,7 +159,7 @@ class Loop {
     }
     return drives;
   }
-  /// Of that, the part of the tone, over the amplitude.
+  /// The tone's part of that, over the amplitude.
   [[nodiscard]] Interval of_first(std::size_t sample, const Interval& off) const {
     Interval sum(0.0);
     for (std::size_t i = 0; i < question_.a.size() && i <= sample; ++i) {
@@ -181,12 +181,12 @@ Interval attenuation(const Interval& amplitude, const Interval& output) {
   return Interval(20.0) * log(amplitude / output) / log(Interval(10.0));
 }
 
-/// From which sample on the output has settled, and what it is at most from then on.
+/// The sample from which on the output has settled, and its bound from then on.
 std::pair<double, Interval> settled_output(const Loop& loop, const RegulatorQuestion& question) {
   const SettledFrequency& settled = *question.tracker.settled;
   const Interval from_then = loop.output(settled.error);
   const Interval before = loop.drive_for_ever(*question.tracker.for_ever);
-  // The rest of what was before is at most a hundredth of what stays, if that can be had.
+  // The remainder of the earlier output is at most a hundredth of the lasting part, if possible.
   constexpr double kShare = 0.01;
   std::size_t low = 0;
   std::size_t high = loop.inverse_plant().size() + 1;
@@ -245,7 +245,7 @@ void add_bounds(Derivation& derivation, const Loop& loop, const RegulatorQuestio
   }
 }
 
-/// Of the loop whose estimate is frozen at the true frequency: S = 1 - 2 cos(omega) q^-1 + q^-2.
+/// For the loop whose estimate is frozen at the true frequency: S = 1 - 2 cos(omega) q^-1 + q^-2.
 void add_frozen_loop(Derivation& derivation, const Interval& cosine) {
   const Interval two(2.0);
   add(derivation,

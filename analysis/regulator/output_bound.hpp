@@ -2,8 +2,8 @@
 // uses it.
 //
 // trackers/regulator/frequency_regulator.hpp: A_1 y_{k+1} = 2 (cos omega - c_k) A_1 v_k with c_k = cos of the
-// estimate, for a tone v; what changes of the frequency, measurement noise and the first samples add, and the
-// proof, are in docs/regulator.md, sections 1 to 4.
+// estimate, for a tone v; the contributions of frequency changes, measurement noise and the first samples,
+// and the proof, are in docs/regulator.md, sections 1 to 4.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@
 
 namespace veritrack::regulator {
 
-/// From that sample on |frequency error| is at most that many rad/sample.
+/// From that sample on |frequency error| is at most this, rad/sample.
 struct SettledFrequency {
   double samples;
   rigor::Interval error;
 };
 
-/// What is proved of the tracker: bounds on |frequency error|, rad/sample; none where nothing is.
+/// The proved bounds on the tracker's |frequency error|, rad/sample; empty where nothing is proved.
 struct FrequencyBounds {
   std::optional<rigor::Interval> for_ever;
   std::optional<SettledFrequency> settled;
@@ -39,7 +39,7 @@ struct RegulatorQuestion {
 };
 
 /// The derivation "regulator": bounds on the output and the input for ever, from some sample on and in the
-/// long run, and the attenuation that follows. Its conditions: A_1 and B_1 are Schur, and the tracker has a
+/// long run, and the resulting attenuation. Its conditions: A_1 and B_1 are Schur, and the tracker has a
 /// bound. Needs the upward mode.
 [[nodiscard]] theorems::Derivation derive_output_bound(const RegulatorQuestion& question);
 

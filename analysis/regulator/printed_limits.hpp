@@ -15,7 +15,7 @@
 
 namespace veritrack::regulator {
 
-/// A number as printed, with four digits behind the point, or every number that is printed so.
+/// A number as printed, with four digits behind the point, or every number that is printed this way.
 enum class Printed { exactly, rounded };
 
 [[nodiscard]] inline Polynomial printed_polynomial(std::initializer_list<const char*> decimals,
@@ -64,7 +64,7 @@ enum class Printed { exactly, rounded };
                       printed_polynomial({"2.9604", "-5.5496", "3.2754", "0.2984", "-0.4159"}, reading));
 }
 
-/// d with A_2 d printed as the denominator of Table 5.2: found by search, checked by whoever uses it.
+/// d with A_2 d printed as the denominator of Table 5.2: found by search, checked by its users.
 [[nodiscard]] inline Polynomial table_5_2_cofactor() {
   return {rigor::parse_decimal("2.96044"), rigor::parse_decimal("-0.421976"),
           rigor::parse_decimal("-0.415882")};

@@ -1,4 +1,4 @@
-// A design file, read: what the engineer chose, what is known, what is required; every number with the
+// A design file, read: the choices of the engineer, the assumptions, the requirements; every number with the
 // interval it represents and its position in the file.
 #pragma once
 
@@ -25,8 +25,8 @@ struct SourceText {
 
 /// A number of a design file.
 struct Number {
-  /// Holds the decimal and the double nearest to it, with a unit in the last place around `tight`, where that
-  /// is not a point, so that another arithmetic finds in every result what it needs.
+  /// Contains the decimal and the double nearest to it, with a unit in the last place around `tight`, where
+  /// that is not a point, as slack for another arithmetic.
   rigor::Interval value;
   rigor::Interval tight;  ///< the tightest interval that holds both
   double nearest = 0.0;   ///< the double nearest to the decimal: what the filter runs with
@@ -42,8 +42,8 @@ struct Number {
   return a.text == b.text || a.value == b.value;
 }
 
-/// A design file: what every tracker's has, and the tables that go with the tracker, whose type only its
-/// column knows.
+/// A design file: the parts common to all trackers, and the tables that go with the tracker, whose type only
+/// its column knows.
 struct Design {
   std::string name;
   std::string tracker;

@@ -1,5 +1,5 @@
-// The format of a design file: its keys, each declared once with its name, what is allowed, how it is read
-// and what is assumed without it; and the tables that a tracker has.
+// The format of a design file: its keys, each declared once with its name, its allowed values, its reader and
+// its default; and the tables that a tracker has.
 #pragma once
 
 #include <any>
@@ -16,7 +16,7 @@
 
 namespace veritrack::certificates {
 
-/// What is assumed when a key is left out.
+/// The assumption when a key is left out.
 struct Absence {
   enum class Rule { is_an_error, is_nothing, is_default };
   Rule rule = Rule::is_an_error;
@@ -61,7 +61,7 @@ template <typename Target, typename Keys>
   return table;
 }
 
-/// What no single key can say.
+/// A fault that concerns several keys.
 struct TableObjection {
   std::string_view table;              ///< where the message points
   std::string message;                 ///< what is wrong, what is allowed
@@ -78,7 +78,7 @@ struct DesignFormat {
   std::optional<TableObjection> (*objection)(const std::any& tables) = nullptr;
 };
 
-/// What to add to a list of all trackers that this build knows: how to get the others, if there are any.
+/// The text to add to a list of all trackers that this build knows: how to get the others, if there are any.
 [[nodiscard]] std::string_view others_are_left_out();
 
 /// The formats of all trackers (certificates/trackers.def).

@@ -140,7 +140,7 @@ std::vector<std::string_view> trackers_with(const UnknownKey& key) {
   return trackers;
 }
 
-/// "nearest known key: design.q1", or which trackers have the key.
+/// "nearest known key: design.q1", or the trackers that have the key.
 std::string what_is_known(const UnknownKey& unknown, const std::vector<std::string>& paths) {
   const std::vector<std::string_view> trackers = trackers_with(unknown);
   return trackers.empty() ? fmt::format("nearest known key: {}", nearest_key(unknown.path, paths))
@@ -206,7 +206,7 @@ void read_table(const TomlSource& source, const toml::table* content, const Boun
   }
 }
 
-/// The table of that name, null when there is none. Throws InputError when it is something else.
+/// The table of that name, null when there is none. Throws InputError when it is not a table.
 const toml::table* find_table(const TomlSource& source, std::string_view name) {
   const toml::node* node = source.root().get(name);
   if (node == nullptr) {
@@ -235,7 +235,7 @@ Design read_from(const TomlSource& source, Place place) {
   design.tables = format.empty_tables();
   const BoundTable top = top_keys(design, place);
   const std::vector<BoundTable> tables = format.bind_tables(design.tables);
-  // Keys of a tracker that is not known are none of another one's.
+  // Keys of an unknown tracker are not those of another one.
   if (source.root()["tracker"].value<std::string_view>().value_or(format.tracker) == format.tracker) {
     reject_unknown_keys(source, top, tables);
   }

@@ -1,4 +1,4 @@
-// An open file that closes itself, and may be asked to say whether closing went well.
+// An open file that closes itself, and can report whether closing succeeded.
 #pragma once
 
 #include <unistd.h>
@@ -29,7 +29,7 @@ class FileDescriptor {
     descriptor_ = descriptor;
   }
 
-  /// As read(2) and write(2), begun anew when a signal interrupts.
+  /// As read(2) and write(2), restarted when a signal interrupts.
   [[nodiscard]] ssize_t read(char* buffer, std::size_t size) const noexcept {
     ssize_t count = -1;
     do {

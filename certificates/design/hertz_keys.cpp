@@ -24,7 +24,7 @@ struct OtherUnit {
   Interval factor;         ///< from it to that of the key
 };
 
-/// What stands in the braces, and in which unit; the value itself when it has none.
+/// The value in the braces, and its unit; the value itself when it has none.
 struct Measured {
   TomlValue value;
   std::optional<OtherUnit> unit = std::nullopt;
@@ -86,7 +86,7 @@ std::array<Number, 2> read_band(const TomlValue& value, RealPredicate is_allowed
   const Measured inside = measured(value, "hz");
   const std::vector<TomlValue> ends = inside.value.elements(2);
   std::array<Number, 2> band{read(ends[0], inside.unit, is_allowed), read(ends[1], inside.unit, is_allowed)};
-  // Two decimals within one ulp of each other pass in any order: what is certified is the hull of the two
+  // Two decimals within one ulp of each other pass in any order: the certificate is for the hull of the two
   // intervals.
   const bool hull_is_ordered = band[0].value.lower() <= band[1].value.upper();
   if (!hull_is_ordered) {

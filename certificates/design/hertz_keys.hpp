@@ -8,9 +8,9 @@
 
 namespace veritrack::certificates {
 
-/// What [assume] sample_rate may be.
+/// The allowed values of [assume] sample_rate.
 inline constexpr std::string_view kSampleRate = "a number above 0, in Hz";
-/// What a frequency error may be, above 0, and 0 or more; and a slew.
+/// The allowed values of a frequency error, above 0, and 0 or more; and of a slew.
 inline constexpr std::string_view kPositiveFrequency =
     "a number above 0, in rad/sample, or { hz = a number } with sample_rate in [assume]";
 inline constexpr std::string_view kNotNegativeFrequency =
@@ -23,7 +23,7 @@ inline constexpr std::string_view kNotNegativeSlew =
     "[assume]";
 
 // Each reads x, in rad/sample, or { hz = x }, which is 2 pi x/sample_rate rad/sample: an enclosure, whose
-// `text` says "x Hz". `is_allowed` is asked of rad/sample. Throws InputError, for Hz without a sample rate as
+// `text` is "x Hz". `is_allowed` receives rad/sample. Throws InputError, for Hz without a sample rate as
 // well. Needs the upward rounding mode.
 
 [[nodiscard]] Number read_frequency(const TomlValue& value, RealPredicate is_allowed);

@@ -24,7 +24,7 @@ std::uint32_t decode(std::string_view character) {
   return value;
 }
 
-/// Characters that move the cursor, break the line or reorder what is around them.
+/// Characters that move the cursor, break the line or reorder the text around them.
 bool is_unprintable(std::uint32_t value) {
   const bool is_control = value < 0x20 || (value >= 0x7F && value < 0xA0);
   const bool separates_lines = value == 0x2028 || value == 0x2029;

@@ -1,4 +1,4 @@
-// What is wrong with an input, where, and what is allowed: one printable line.
+// The fault of an input, its place, and what is allowed: one printable line.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace veritrack::certificates {
 
 /// Thrown for an input that cannot be used. what() is one line, `file:line:column: what is wrong; what is
-/// allowed`, without the line and column where there are none; whatever the input held is made printable.
+/// allowed`, without the line and column where there are none; the text of the input is made printable.
 class InputError : public std::runtime_error {
  public:
   /// `position.line` is 0 where the fault has no place in the file. `message` is capped at kMessageLimit
@@ -37,7 +37,7 @@ class InputError : public std::runtime_error {
 /// bytes that are not UTF-8 become \xNN or \uNNNN. Cut with "..." beyond `limit` bytes (at least 3).
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit);
 
-/// The length in bytes of the UTF-8 character that `text` begins with; none when it does not begin with one
+/// The length in bytes of the UTF-8 character that `text` begins with; empty when it does not begin with one
 /// (overlong forms, surrogates and values above U+10FFFF included) or is empty.
 [[nodiscard]] std::optional<std::size_t> utf8_length(std::string_view text) noexcept;
 

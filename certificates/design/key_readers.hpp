@@ -1,4 +1,4 @@
-// What the keys of all trackers are made of: limits, defaults, and readers that store a value in a member.
+// The parts of the keys of all trackers: limits, defaults, and readers that store a value in a member.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace veritrack::certificates::keys {
 
 using rigor::Interval;
 
-// ---- what is assumed without a key
+// ---- the assumption without a key
 
 inline constexpr Absence kRequired{};
 inline constexpr Absence kOptional{Absence::Rule::is_nothing, {}};
@@ -24,7 +24,7 @@ constexpr Absence defaults_to(std::string_view toml) {
   return {Absence::Rule::is_default, toml};
 }
 
-// ---- what a key is to the contract
+// ---- the role of a key in the contract
 
 inline constexpr KeyContract kNoContract{Stronger::neither};
 inline constexpr KeyContract kOnlyEqual{Stronger::only_equal};

@@ -1,4 +1,4 @@
-// Which known key did the author of an unknown one mean?
+// Suggests the known key that the author of an unknown one may have meant.
 #pragma once
 
 #include <cstddef>

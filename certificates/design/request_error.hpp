@@ -7,7 +7,7 @@
 
 namespace veritrack::certificates {
 
-/// what(): what was found, and what is allowed, on one line.
+/// what(): the request and what is allowed, on one line.
 class RequestError : public std::invalid_argument {
  public:
   /// `key` of the design file that does not fit, e.g. "model.states"; empty when none does.

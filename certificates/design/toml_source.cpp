@@ -27,10 +27,10 @@ bool is_ascii(char byte) {
 }
 
 // toml++ 3.3.0 runs into undefined behaviour (its issue 190) where a character that is not ASCII occurs
-// outside strings and comments, and behind a backslash that joins two lines of a string. It is therefore
-// first given the text with a question mark, no more welcome in those places, for each such character; what
-// then is well-formed has them in strings and comments only, and is parsed as it is. Positions are the same
-// in both: columns count characters.
+// outside strings and comments, and behind a backslash that joins two lines of a string. It therefore first
+// gets the text with a question mark, which is equally invalid in those places, for each such character; a
+// text that is then well-formed has them in strings and comments only, and is parsed as it is. Positions are
+// the same in both: columns count characters.
 std::string to_ascii(std::string_view text) {
   std::string result;
   while (!text.empty()) {

@@ -1,4 +1,4 @@
-// A TOML file: its text, and the tree that toml++ makes of it.
+// A TOML file: its text, and its tree by toml++.
 #pragma once
 
 #include <toml++/toml.h>
@@ -15,11 +15,11 @@ namespace veritrack::certificates {
 /// A parsed file beside the text that it came from: numbers are taken from the text, not from the parser.
 class TomlSource {
  public:
-  /// Whose words these are: the user's, or our own default values, which have no position to report.
+  /// The author of these words: the user, or our own default values, which have no position to report.
   enum class Origin { file, built_in };
 
-  /// Parses `text` (copied). `file_name` is for messages. Throws InputError for whatever is not TOML 1.0, for
-  /// invalid UTF-8, and for text that is empty, larger than kSizeLimit, or nested beyond all use.
+  /// Parses `text` (copied). `file_name` is for messages. Throws InputError for text that is not TOML 1.0,
+  /// for invalid UTF-8, and for text that is empty, larger than kSizeLimit, or nested beyond any use.
   TomlSource(std::string_view text, std::string_view file_name, Origin origin = Origin::file);
   /// A table of a file as if it were a file: positions are still those in `outer`, and messages begin with
   /// the name of the table. The table must outlive it.
@@ -32,8 +32,7 @@ class TomlSource {
 
   [[nodiscard]] const toml::table& root() const noexcept { return table_ != nullptr ? *table_ : root_; }
   [[nodiscard]] Origin origin() const noexcept { return origin_; }
-  /// What the line of `position` holds from there on; empty behind its end, and when there is no such
-  /// line.
+  /// The rest of the line of `position` from there on; empty behind its end, and when there is no such line.
   [[nodiscard]] std::string_view text_from(Position position) const;
   /// Just behind the last character.
   [[nodiscard]] Position end() const;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kShownLimit = 60;  // bytes of a value that are worth showing
 
-/// A unit in the last place more on both sides, where it is not a point.
+/// One more unit in the last place on both sides, where it is not a point.
 rigor::Interval with_room(const rigor::Interval& tight) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double lower = std::nextafter(tight.lower(), -kInfinity);
@@ -95,7 +95,7 @@ Number TomlValue::real(RealPredicate is_allowed) const {
   const std::string shown = printable(number.text, kShownLimit);
   try {
     number.tight = rigor::parse_decimal(decimal);
-    // A number just inside what is allowed stays inside: 1e-400 is not negative.
+    // A number just inside the allowed range stays inside: 1e-400 is not negative.
     const rigor::Interval wider = with_room(number.tight);
     number.value = is_allowed(wider) ? wider : number.tight;
   } catch (const rigor::NumberFormatError&) {
@@ -177,7 +177,7 @@ SourceText TomlValue::source_text(std::size_t limit) const {
     source.position = {source.position.line + 1, 1};  // TOML leaves out a line feed behind the quotes
     first_line = source_->text_from(source.position);
   }
-  // With escapes, the text is not what the file says.
+  // With escapes, the text differs from that in the file.
   const bool is_as_written = raw.starts_with('\'') || raw.find('\\') == std::string_view::npos;
   const std::string_view text_line =
       std::string_view(source.text).substr(0, source.text.find_first_of("\r\n"));

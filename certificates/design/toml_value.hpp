@@ -1,4 +1,4 @@
-// One value of a TOML file: read with its position, and refused with a message that says what is allowed.
+// One value of a TOML file: read with its position, and refused with a message that states what is allowed.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,7 @@
 
 namespace veritrack::certificates {
 
-/// A predicate on the number that an interval holds: true only when certain. Called with the rounding mode
-/// held.
+/// A predicate on the number in an interval: true only when certain. Called with the rounding mode held.
 using RealPredicate = bool (*)(const rigor::Interval&);
 
 /// A value and the allowed values. Refers to the source: must not outlive it.
@@ -39,7 +38,8 @@ class TomlValue {
   /// A string of at most `limit` bytes that may have many lines, or a number as it is written. Escapes are
   /// not allowed, so that every character has its place in the file. Throws InputError otherwise.
   [[nodiscard]] SourceText source_text(std::size_t limit) const;
-  /// The keys of a table and their values, in the order of the file. Throws InputError when it is no table.
+  /// The keys of a table and their values, in the order of the file. Throws InputError when it is not a
+  /// table.
   [[nodiscard]] std::vector<std::pair<SourceText, TomlValue>> members() const;
   [[nodiscard]] bool is_string() const noexcept { return node_->is_string(); }
   [[nodiscard]] bool is_table() const noexcept { return node_->is_table(); }
@@ -51,25 +51,25 @@ class TomlValue {
   [[nodiscard]] std::vector<TomlValue> elements(std::size_t count) const;
   /// The elements of an array of `fewest` to `most`. Throws InputError otherwise.
   [[nodiscard]] std::vector<TomlValue> elements(std::size_t fewest, std::size_t most) const;
-  /// The values of an inline table that has exactly these keys, in their order; nothing when it has others.
-  /// Throws InputError when it is no table.
+  /// The values of an inline table that has exactly these keys, in their order; empty when it has others.
+  /// Throws InputError when it is not a table.
   [[nodiscard]] std::optional<std::vector<TomlValue>> fields(const std::vector<std::string_view>& keys) const;
 
-  /// The value of `table`.`key` in the same file; nothing when the file does not have it.
+  /// The value of `table`.`key` in the same file; empty when the file does not have it.
   [[nodiscard]] std::optional<TomlValue> elsewhere(std::string_view table, std::string_view key,
                                                    std::string_view allowed) const;
 
-  /// The table as if it were a file. Throws InputError when it is no table.
+  /// The table as if it were a file. Throws InputError when it is not a table.
   [[nodiscard]] TomlSource as_file() const;
 
   [[nodiscard]] Position position() const;
   /// `path` is `found`; allowed: ... Throws InputError.
   [[noreturn]] void refuse(std::string_view found) const;
-  /// Refuses the value by what kind of thing it is.
+  /// Refuses the value by its kind.
   [[noreturn]] void refuse_kind() const;
 
  private:
-  /// What the file says, for numbers only: the characters that the value is made of.
+  /// The text in the file, for numbers only: the characters of the value.
   [[nodiscard]] std::string_view number_text() const;
 
   const TomlSource* source_;

@@ -39,7 +39,7 @@ dft_block::LossQuestion loss_question(const BlockTables& tables, const dft_block
 dft_block::LowestSnrQuestion lowest_snr_question(const BlockTables& tables,
                                                  const dft_block::LockQuestion& lock) {
   const auto& required = tables.require.probability_of_losing_lock_below;
-  // Below what is required, by a little.
+  // A little below the required value.
   constexpr double kBelow = 0.999;
   return {loss_question(tables, lock), bin_deviation(with_snr(tables, "0")),
           Interval(kBelow) * Interval(required ? required->value.lower() : kUsualProbability)};
@@ -55,7 +55,7 @@ bool is_lock(const theorems::Quantity& offset_error) {
   return rigor::certainly_less(offset_error.value, Interval(0.5));
 }
 
-/// What a derivation in Gaussian noise says, after its hypotheses; none when that is nothing.
+/// The statement of a derivation in Gaussian noise, after its hypotheses; empty when there is none.
 std::optional<Claim> losing_lock(const char* id, const theorems::Derivation& found,
                                  const BlockTables& tables) {
   const theorems::Quantity* probability = proved_quantity(found, "probability_of_losing_lock");
@@ -92,7 +92,7 @@ std::string open_ground(const theorems::Derivation& found) {
   return "The bound that is proved is 1.";
 }
 
-/// The same for as much noise as was proved, where that was looked for.
+/// The same for the most noise that was proved, where that was searched for.
 void add_lowest_snr(Certificate& certificate, const BlockTables& tables) {
   const theorems::Derivation* lowest = find_derivation(certificate, "lowest-snr");
   const theorems::Quantity* decibels = lowest != nullptr ? proved_quantity(*lowest, "lowest_snr") : nullptr;

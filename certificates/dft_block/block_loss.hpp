@@ -1,5 +1,5 @@
-// What is proved of the block tracker in Gaussian noise: the probability that it loses lock, the mean square
-// while it has it, and how loud the noise may be.
+// The proofs for the block tracker in Gaussian noise: the probability that it loses lock, the mean square
+// while in lock, and the largest admissible noise.
 #pragma once
 
 #include "analysis/dft_block/lock_certificate.hpp"
@@ -7,7 +7,7 @@
 
 namespace veritrack::certificates {
 
-/// Adds the derivation "lock-in-noise" and, where everything is asked for and there is one amplitude,
+/// Adds the derivation "lock-in-noise" and, where everything is requested and there is one amplitude,
 /// "lowest-snr". The question has the design and the starts. Needs the upward mode.
 void derive_block_loss(Certificate& certificate, const dft_block::LockQuestion& lock);
 

@@ -1,4 +1,4 @@
-// What the sentences of a block tracker's certificate begin with.
+// The beginnings of the sentences of a block tracker's certificate.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ namespace veritrack::certificates {
 /// the root of 2 T. The noise must be Gaussian. Needs the upward mode.
 [[nodiscard]] rigor::Interval bin_deviation(const BlockTables& tables);
 
-/// The design in white noise of another signal-to-noise ratio, a decimal in dB, in place of what is assumed.
+/// The design in white noise of another signal-to-noise ratio, a decimal in dB, in place of the assumed one.
 /// Needs the upward mode.
 [[nodiscard]] BlockTables with_snr(BlockTables tables, const std::string& decibels);
 
-/// Everything up to what is claimed of the assumed tones, noise and starts. Needs the upward mode.
+/// Everything before the claim on the assumed tones, noise and starts. Needs the upward mode.
 [[nodiscard]] std::string block_hypotheses(const BlockTables& tables);
 
 }  // namespace veritrack::certificates

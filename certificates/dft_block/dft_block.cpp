@@ -133,7 +133,7 @@ class BlockClaims {
     add(std::move(claim));
   }
 
-  /// What is proved, with all numbers.
+  /// The proved statements, with all numbers.
   void add_guarantee() {
     Claim claim;
     claim.id = "dft-block/guarantee";
@@ -183,7 +183,7 @@ void certify_dft_block(Certificate& certificate, const CertifyProgress& /*progre
   } else {
     certificate.derivations.push_back(dft_block::derive_lock(question));
   }
-  // What is beside [require] is not asked for by everyone.
+  // Statements beside [require] are not requested by everyone.
   const bool all = certificate.extent == Extent::everything;
   if (all) {
     for (theorems::Derivation& found : dft_block::derive_false_locks(question.problem)) {

@@ -1,4 +1,4 @@
-// What is certified of the block tracker.
+// The certificate of the block tracker.
 #pragma once
 
 #include "certificates/document/certificate.hpp"

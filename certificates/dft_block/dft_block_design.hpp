@@ -60,7 +60,7 @@ struct BlockTables {
   BlockSimulation simulate;
 };
 
-/// Of a design of this tracker. Throws std::logic_error for another.
+/// The tables of a design of this tracker. Throws std::logic_error for another.
 [[nodiscard]] inline const BlockTables& block_tables(const Design& design) {
   return tables_of<BlockTables>(design);
 }

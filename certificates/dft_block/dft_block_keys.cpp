@@ -165,7 +165,7 @@ std::vector<BoundTable> bind_block_tables(std::any& tables) {
           bound_table("simulate", kBlockSimulateKeys, target.simulate)};
 }
 
-/// What goes with Gaussian noise, and what with a bound.
+/// The keys that go with Gaussian noise, and those that go with a bound.
 std::optional<TableObjection> objection_to_noise(const BlockTables& read) {
   const bool is_gaussian = read.assume.gaussian.has_value();
   if (is_gaussian != read.assume.blocks.has_value()) {

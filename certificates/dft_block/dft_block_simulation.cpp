@@ -101,7 +101,7 @@ StartsOnATone simulate_starts(const Certificate& certificate, double reach, int 
   const double root = std::sqrt(result.amplitude / (4.0 * kPi));
   const int half_width = static_cast<int>(tables.design.half_width.nearest);
   const Eigen::Matrix3d covariance = steady_covariance(tables, result.amplitude, result.offset);
-  // The phase is counted anew in each block, so that all blocks look alike.
+  // The phase is counted from the start of each block, so that all blocks look alike.
   const Bins bins = bins_of(result.amplitude, 0.0, result.offset, half_width);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {

@@ -18,7 +18,7 @@ struct BlockRun {
 /// Nearest rounding must hold.
 [[nodiscard]] Eigen::Matrix3d steady_covariance(const BlockTables& tables, double amplitude, double offset);
 
-/// Where starts end, on one tone without noise.
+/// The ends of runs from a grid of starts, on one tone without noise.
 struct StartsOnATone {
   double amplitude = 1.0, offset = 0.0;  ///< of the tone, signal units and bins
   std::vector<double> offset_errors;     ///< at the start, of all starts, bins
@@ -28,8 +28,9 @@ struct StartsOnATone {
 };
 
 /// `columns` offset errors between -reach and reach, `rows` phase errors of a whole turn, started with the
-/// amplitude of the tone and the covariance of the steady state, so many blocks. The tone is that of the
-/// false locks where they are proved, else in the middle of what is assumed. Nearest rounding is opened here.
+/// amplitude of the tone and the covariance of the steady state, run for `blocks` blocks. The tone is that of
+/// the false locks where they are proved, otherwise in the middle of the assumed ones. Nearest rounding is
+/// opened here.
 [[nodiscard]] StartsOnATone simulate_starts(const Certificate& certificate, double reach, int columns,
                                             int rows, int blocks);
 

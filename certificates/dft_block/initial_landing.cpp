@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 
-/// The set in which errors have to be.
+/// The set that must contain the errors.
 struct ErrorSet {
   Eigen::Matrix3d into = Eigen::Matrix3d::Identity();  ///< C^-1
   double radius = 0.0;

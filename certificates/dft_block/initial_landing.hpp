@@ -1,5 +1,5 @@
-// Where the initialisation (4.35)-(4.36) lands in Gaussian noise: simulated starts, counted. Nothing here is
-// proved.
+// The landing of the initialisation (4.35)-(4.36) in Gaussian noise: simulated starts, counted. Nothing here
+// is proved.
 #pragma once
 
 #include <cstdint>

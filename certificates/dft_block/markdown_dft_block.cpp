@@ -42,7 +42,7 @@ std::string block_set_section(const Certificate& certificate) {
          markdown::notes_list(found) + "\n";
 }
 
-/// The set for as much noise as could be proved.
+/// The set for the most noise that could be proved.
 std::string lowest_snr_section(const Certificate& certificate) {
   const theorems::Derivation* found = find_derivation(certificate, "lowest-snr");
   if (found == nullptr) {
@@ -53,7 +53,7 @@ std::string lowest_snr_section(const Certificate& certificate) {
          "\n" + markdown::notes_list(*found) + "\n";
 }
 
-/// What is proved of starts that never find the tone.
+/// The proofs for starts that never find the tone.
 std::string false_lock_section(const Certificate& certificate) {
   const auto* below = find_derivation(certificate, "false-lock-below");
   const auto* above = find_derivation(certificate, "false-lock-above");

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kRandom = "XXXXXX";  // what mkostemp replaces
+constexpr std::string_view kRandom = "XXXXXX";  // replaced by mkostemp
 constexpr std::string_view kPrevious = ".previous";
 
 std::string hidden_prefix(const fs::path& target) {

@@ -1,4 +1,4 @@
-// The hidden files that stand beside an output while it is written, and what a killed process leaves of them.
+// The hidden files beside an output while it is written, and those that a killed process leaves.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@ namespace veritrack::certificates {
 /// The pattern, for mkostemp(3), of the file in which the content of `target` is gathered.
 [[nodiscard]] std::filesystem::path temporary_name(const std::filesystem::path& target);
 
-/// The name under which what stood at the target is kept until all outputs have their names.
+/// The name under which the previous file at the target is kept until all outputs have their names.
 [[nodiscard]] std::filesystem::path name_of_previous(const std::filesystem::path& temporary);
 
-/// Removes the hidden files beside `target` that no process works on any more. A process holds a lock,
+/// Removes the hidden files beside `target` on which no process works any more. A process holds a lock,
 /// flock(2), on each of its own, which ends with it; where the file system has no locks, nothing is removed.
 void remove_abandoned_files(const std::filesystem::path& target);
 

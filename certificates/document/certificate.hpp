@@ -1,4 +1,4 @@
-// A certificate: a design, what was claimed of it, the verdict on each claim, and the ground for it.
+// A certificate: a design, the claims about it, the verdict on each claim, and the ground for it.
 #pragma once
 
 #include <any>
@@ -25,25 +25,26 @@ namespace veritrack::certificates {
 struct Claim {
   std::string id;         ///< e.g. "ekf/frequency-error-bound"
   std::string statement;  ///< one sentence with all its hypotheses, with units
-  /// How the statement begins, where it says on what it rests; empty where it does so elsewhere.
+  /// The beginning of the statement, if it states the hypotheses; empty if they stand elsewhere.
   std::string hypotheses = {};
-  std::string requirement;  ///< what [require] asks, in short; empty when it does not
+  std::string requirement;  ///< the requirement of [require], in short; empty when there is none
   rigor::Verdict verdict = rigor::Verdict::undecided;
   bool required = false;  ///< is in [require] of the design file
   Position position;      ///< of the requirement in the design file; line 0 when it is not required
   std::string reason;     ///< one sentence: the ground for the verdict
   std::vector<theorems::Quantity> evidence;
-  /// Further values that make the sentence what it is, by name: decimals as they stand in it.
+  /// Further values that the sentence depends on, by name: decimals as they stand in it.
   std::vector<std::pair<std::string, std::string>> values = {};
 };
 
-/// How much is looked for.
+/// The extent of the search.
 enum class Extent {
   everything,
-  requirements,  ///< what decides [require], and not what takes long and is only reported beside it
+  requirements,  ///< everything that decides [require], without long computations that are only reported
+                 ///< beside it
   verdicts,      ///< the same verdicts; a search stops as soon as it has them
-  quick  ///< one search for a set that does all that is required, and no other: what that leaves undecided,
-         ///< another extent may prove
+  quick  ///< a single search for a set that meets all requirements: another extent may prove what it leaves
+         ///< undecided
 };
 
 struct Certificate {
@@ -52,15 +53,15 @@ struct Certificate {
   search::Deadline deadline;                      ///< of the search, where the kind of tracker keeps one
   std::string design_file;                        ///< its name, without folders
   std::string design_text;                        ///< as read
-  std::vector<theorems::Derivation> derivations;  ///< what follows from what, by the kind of tracker
-  /// What is certified of the assumed starts and beyond; none for a tracker without such a certificate.
+  std::vector<theorems::Derivation> derivations;  ///< the deductions, by the kind of tracker
+  /// The certified bounds on the assumed starts and beyond; empty for a tracker without such a certificate.
   std::optional<sets::KalmanFilterResult> contraction;
   std::vector<Claim> claims;
-  /// Of all required claims together; none when nothing is required, which is no verdict at all.
+  /// The verdict on all required claims together; empty when nothing is required: then there is no verdict.
   std::optional<rigor::Verdict> verdict;
   Simulation simulation;  ///< the double-precision run behind the audits and the figures
-  std::any particulars;   ///< what only this kind of tracker has; its column knows the type
-  std::optional<FormalProofs> formal_proofs;  ///< when asked for: see coq_document.hpp
+  std::any particulars;   ///< the data that only this kind of tracker has; its column knows the type
+  std::optional<FormalProofs> formal_proofs;  ///< when requested: see coq_document.hpp
 };
 
 /// The derivations whose id begins with that prefix.
@@ -74,19 +75,19 @@ struct Certificate {
 /// "proved", "refuted", "undecided", or "nothing-required".
 [[nodiscard]] std::string verdict_text(const Certificate& certificate);
 
-/// How far following a set of starts has come.
+/// The progress of following a set of starts.
 struct Progress {
   double proved_share = 0.0;   ///< of the starts, by volume
   double refuted_share = 0.0;  ///< of the starts, by volume
   std::size_t propagations = 0;
 };
 
-/// Told how far the long part of the work has come, now and then.
+/// Called now and then with the progress of the long part of the work.
 using CertifyProgress = std::function<void(const Progress&)>;
 
-/// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file`
-/// its name without folders, for the documents. Only kinds that are `limited_in_time` look at the deadline.
-/// Opens its own rounding scope.
+/// Evaluates every statement on the design. `design_text` is the file's text and `design_file` its name
+/// without folders, for the documents. Only kinds that are `limited_in_time` look at the deadline. Opens its
+/// own rounding scope.
 [[nodiscard]] Certificate certify(const Design& design, const std::string& design_file,
                                   const std::string& design_text, const CertifyProgress& progress = {},
                                   Extent extent = Extent::everything, const search::Deadline& deadline = {});

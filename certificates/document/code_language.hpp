@@ -8,12 +8,12 @@
 
 namespace veritrack::certificates {
 
-/// In which language. `formulas` is that of the design file.
+/// The language. `formulas` is that of the design file.
 enum class CodeLanguage { formulas, c, python, octave };
 
 /// The names by which a user asks for them: "formulas", "c", "python", "octave".
 [[nodiscard]] const std::vector<std::string>& code_language_names();
-/// None for another name.
+/// Empty for another name.
 [[nodiscard]] std::optional<CodeLanguage> code_language(std::string_view name);
 
 }  // namespace veritrack::certificates

@@ -46,7 +46,7 @@ struct DecimalParts {
 DecimalParts parts_of(std::string_view text) {
   std::string plain(text);
   std::erase(plain, '_');
-  static_cast<void>(rigor::parse_decimal(plain));  // throws for what is no decimal
+  static_cast<void>(rigor::parse_decimal(plain));  // throws for text that is not a decimal
   std::string digits;
   int exponent = 0;
   bool negative = false;
@@ -80,7 +80,7 @@ DecimalParts parts_of(std::string_view text) {
   return {negative, digits, exponent};
 }
 
-/// digits / 10^decimals, with a sign, and one decimal at least.
+/// digits / 10^decimals, with a sign, and at least one decimal.
 struct FractionParts {
   bool negative = false;
   std::string digits;

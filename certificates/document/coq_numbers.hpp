@@ -12,12 +12,12 @@ namespace veritrack::certificates::coq {
 /// and with underscores. Throws rigor::NumberFormatError.
 [[nodiscard]] std::string decimal(std::string_view text);
 
-/// The same as a decimal of Coq's, with one digit after the point at least: "0.0023", "1.0", "(-0.5)". Throws
+/// The same as a decimal of Coq's, with at least one digit after the point: "0.0023", "1.0", "(-0.5)". Throws
 /// rigor::NumberFormatError.
 [[nodiscard]] std::string literal(std::string_view text);
 
-/// The same as a fraction of type Q, "(23 # 10000)", which Coq sees to be what literal() writes. Throws
-/// rigor::NumberFormatError.
+/// The same as a fraction of type Q, "(23 # 10000)", which Coq recognises as equal to that of literal().
+/// Throws rigor::NumberFormatError.
 [[nodiscard]] std::string fraction(std::string_view text);
 
 /// The number that a finite double is. Throws std::invalid_argument for NaN and infinities.

@@ -1,5 +1,5 @@
-// What certificate.v consists of: a text for all designs (the files of certificates/coq/), and what follows
-// for the design at hand.
+// The parts of certificate.v: a text for all designs (the files of certificates/coq/), and the parts for the
+// design at hand.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace veritrack::certificates::coq {
 /// when there is no such file.
 [[nodiscard]] std::string_view text_for_all_designs(std::string_view name);
 
-/// Appends to the text and lists what is proved.
+/// Appends to the text and lists the statements proved.
 class Proofs {
  public:
   Proofs() = default;
@@ -34,15 +34,15 @@ class Proofs {
   void prove(const std::string& lemma, const std::string& proposition, const std::string& proof,
              std::string of, std::string statement);
 
-  /// Is nothing proved?
+  /// Whether nothing is proved.
   [[nodiscard]] bool empty() const { return proofs_.proofs.empty(); }
-  /// All of the other one, after this.
+  /// Appends all of the other one.
   void append(const Proofs& other);
 
-  /// Says there that something is not proved, and why.
+  /// Adds a remark that something is not proved, and why.
   void leave_out(std::string what_and_why);
 
-  /// All of it, with a list of the axioms it rests on as Coq's last word.
+  /// The whole text, ending with the command that makes Coq list the axioms it rests on.
   [[nodiscard]] FormalProofs finished() const;
 
  private:

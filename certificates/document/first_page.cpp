@@ -16,7 +16,7 @@ namespace {
 
 using rigor::Verdict;
 
-/// Behind ", " or ". ", how a hypothesis begins.
+/// The beginnings of a hypothesis behind ", " or ". ".
 constexpr std::array<std::string_view, 20> kBeginnings{"for a tone of ",
                                                        "for every tone of ",
                                                        "on a tone ",
@@ -68,7 +68,7 @@ std::vector<std::string> parts_of(std::string_view hypotheses) {
   return parts;
 }
 
-/// What a statement says behind its hypotheses.
+/// The part of a statement behind its hypotheses.
 std::string conclusion_of(const Claim& claim) {
   if (!claim.statement.starts_with(claim.hypotheses)) {
     throw std::logic_error("the statement of " + claim.id + " does not begin with its hypotheses");

@@ -1,6 +1,6 @@
-// The top of a document as a list: what is assumed, each hypothesis once and numbered, and then each claim
-// with the numbers of the hypotheses that it rests on. The checker composes the same list from the sentences
-// that it establishes (checker/document/first_page.hpp).
+// The top of a document as a list: the hypotheses, each once and numbered, and then each claim with the
+// numbers of the hypotheses that it rests on. The checker composes the same list from the sentences that it
+// establishes (checker/document/first_page.hpp).
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ inline constexpr const char* kFormalProofFile = "certificate.v";
 /// A statement of the certificate that certificate.v proves.
 struct FormalProof {
   std::string lemma;      ///< its name in certificate.v
-  std::string of;         ///< what it is a proof of: the id of a claim, or "derivation/condition-or-quantity"
+  std::string of;         ///< its subject: the id of a claim, or "derivation/condition-or-quantity"
   std::string statement;  ///< one sentence of Markdown
 };
 
@@ -20,7 +20,7 @@ struct FormalProof {
 struct FormalProofs {
   std::string text;
   std::vector<FormalProof> proofs;
-  std::vector<std::string> left_out;  ///< what is not proved there and why, a sentence or two each
+  std::vector<std::string> left_out;  ///< statements not proved there and why, a sentence or two each
 };
 
 }  // namespace veritrack::certificates

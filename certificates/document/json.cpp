@@ -15,7 +15,7 @@ namespace {
 using rigor::Verdict;
 using theorems::Sense;
 
-/// What is said of a value: lo, hi, or both.
+/// The statement on a value: lo, hi, or both.
 Json value_json(const rigor::Interval& value, Sense sense) {
   Json json = enclosure_json(value);
   if (sense == Sense::at_most || !std::isfinite(value.lower())) {
@@ -118,7 +118,7 @@ Json claim_json(const Claim& claim) {
   return json;
 }
 
-/// Adds what is proved or refuted, and the evidence, to what is said of the design.
+/// Adds the proved and refuted statements, and the evidence, to those on the design.
 void add_findings(Json& json, const Certificate& certificate) {
   const TrackerKind& kind = kind_of(certificate.design);
   json["derivations"] = Json::array();

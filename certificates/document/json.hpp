@@ -10,7 +10,7 @@
 namespace veritrack::certificates {
 
 /// The format that certificate.schema.json and docs/certificate-format.md describe. Every member is read by
-/// the checker, which composes all sentences itself; what is sampled, undecided or for people stands in
+/// the checker, which composes all sentences itself; sampled, undecided and explanatory data are in
 /// report.json.
 [[nodiscard]] std::string to_json(const Certificate& certificate);
 

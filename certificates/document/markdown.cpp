@@ -50,7 +50,7 @@ bool concerns_publication(const Claim& claim) {
          claim.id.ends_with("/conditions");
 }
 
-/// The decided sentences of that kind as the checker composes them anew, without those at the top.
+/// The decided sentences of that kind in the form that the checker composes, without those at the top.
 std::string sentences(const Certificate& certificate, bool on_publications) {
   const std::vector<const Claim*> top = kind_of(certificate.design).answers(certificate);
   std::string text;
@@ -85,7 +85,7 @@ std::string checker_section(const Certificate& certificate, const MarkdownOption
          sentences(certificate, false);
 }
 
-/// Whether the certificate was verified, and how to do it again.
+/// Whether the certificate was verified, and how to repeat the verification.
 std::string verification_paragraph(const Certificate& certificate, const Verification& verification) {
   constexpr std::string_view kChecker = "`veritrack-verify` " VERITRACK_VERSION;
   std::string text;
@@ -155,7 +155,7 @@ std::string headline(const Certificate& certificate, const Verification& verific
 
 namespace {
 
-/// The file, or the word DESIGN for a name that a shell would take apart or a reader for a verdict.
+/// The file, or the word DESIGN for a name that a shell would split or a reader would take for a verdict.
 std::string design_argument(const std::string& file) {
   static const std::regex plain("[-A-Za-z0-9._+/]+");
   static const std::regex verdict("PR[O0]VED|REFUTED", std::regex::icase);

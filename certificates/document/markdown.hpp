@@ -1,4 +1,5 @@
-// certificate.md and published-theorems.md: the certificate for people, and what papers say of its design.
+// certificate.md and published-theorems.md: the certificate for people, and the statements of papers about
+// its design.
 #pragma once
 
 #include <string>
@@ -14,7 +15,7 @@ namespace veritrack::certificates {
 struct FigureReference {
   std::string path;     ///< relative to the document, e.g. "figures/error.svg"
   std::string title;    ///< what it shows, in a few words
-  std::string caption;  ///< what is seen, with units
+  std::string caption;  ///< the content, with units
 };
 
 struct MarkdownOptions {
@@ -35,8 +36,8 @@ struct MarkdownOptions {
 /// The figure in a document: the picture, and its caption below.
 [[nodiscard]] std::string picture(const FigureReference& figure);
 
-/// The document's first line, without mark-up: what was required, and the verdict on it. Of a certificate
-/// that the checker refuses it says so first.
+/// The document's first line, without mark-up: the requirement, and the verdict on it. For a certificate that
+/// the checker refuses it says so first.
 [[nodiscard]] std::string headline(const Certificate& certificate, const Verification& verification = {});
 
 /// The command with which the checker verifies the certificate, with the design file and the documents.

@@ -22,7 +22,7 @@ std::string condition_name(const std::string& id) {
 std::string conditions_table(const theorems::Derivation& derivation) {
   std::vector<theorems::Condition> conditions = derivation.conditions;
   std::stable_partition(conditions.begin(), conditions.end(), [](const theorems::Condition& condition) {
-    return condition.verdict != rigor::Verdict::proved;  // what fails is what the reader looks for
+    return condition.verdict != rigor::Verdict::proved;  // the reader looks for failures first
   });
   std::vector<std::vector<std::string>> rows;
   rows.reserve(conditions.size());

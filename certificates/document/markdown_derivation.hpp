@@ -10,10 +10,10 @@ namespace veritrack::certificates::markdown {
 /// The conditions with their verdicts and grounds; those that are not PROVED come first.
 [[nodiscard]] std::string conditions_table(const theorems::Derivation& derivation);
 
-/// The value of a quantity, as its sense says; `enclosure_digits` of an enclosure, four of a bound.
+/// The value of a quantity, according to its sense; `enclosure_digits` for an enclosure, four for a bound.
 [[nodiscard]] std::string value_text(const theorems::Quantity& quantity, int enclosure_digits = 4);
 
-/// The quantities: what they are, symbol, formula, value.
+/// The quantities: name, symbol, formula, value.
 [[nodiscard]] std::string quantities_table(const theorems::Derivation& derivation, int enclosure_digits = 4);
 
 /// The same without symbols and formulas.

@@ -10,7 +10,7 @@ namespace veritrack::certificates {
 
 namespace {
 
-/// The lemmas that show the same of the same thing.
+/// The lemmas that show the same statement.
 struct Row {
   std::string of, statement, lemmas;
 };

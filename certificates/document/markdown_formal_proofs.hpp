@@ -1,4 +1,4 @@
-// What a proof assistant can check of a certificate, as a section of certificate.md.
+// The statements of a certificate that a proof assistant can check, as a section of certificate.md.
 #pragma once
 
 #include <string>

@@ -111,7 +111,7 @@ void OutputFiles::make_folder(const fs::path& folder) {
   if (const fs::path above = folder.parent_path(); !above.empty() && above != folder) {
     make_folder(above);
   }
-  constexpr mode_t kEveryPermission = 0777;  // less what the process's mask takes away
+  constexpr mode_t kEveryPermission = 0777;  // minus those that the process's mask removes
   if (::mkdir(folder.c_str(), kEveryPermission) == 0) {
     made_folders_.push_back(folder);
   } else if (errno != EEXIST) {
@@ -158,8 +158,8 @@ void OutputFiles::stage(const fs::path& name, std::string_view content) {
 }
 
 void OutputFiles::put_in_place(StagedFile& file) {
-  // A hard link keeps what stood at the target within reach, and the target never goes missing. Where the
-  // file system has no hard links what stood there cannot be put back.
+  // A hard link keeps the previous file at the target within reach, and the target never goes missing. Where
+  // the file system has no hard links the previous file cannot be put back.
   const fs::path previous = name_of_previous(file.temporary);
   file.previous_lock.reset(::open(file.target.file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.previous_lock.is_open()) {
@@ -179,7 +179,7 @@ void OutputFiles::commit() {
     for (StagedFile& file : files_) {
       put_in_place(file);
     }
-    // Last, because nobody can take back what a device or a FIFO has been given.
+    // Last, because output to a device or a FIFO cannot be taken back.
     for (const StagedText& text : texts_) {
       write_as_it_is(text.target, text.text);
     }

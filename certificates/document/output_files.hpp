@@ -1,4 +1,4 @@
-// Files out: a set of files that appears whole or not at all.
+// Writing files: a set of files that appears whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 
 namespace veritrack::certificates {
 
-/// Files on their way: each is written completely beside its target, and only when all are on the disk do
-/// they take their names, replacing what stood there. An object that is destroyed before commit() leaves
-/// nothing behind, neither files nor the folders it made; what a killed process leaves, the next one that
-/// stages the same target removes. A device or FIFO is written as it is, after all files have their names,
-/// and of a link it is the target that is replaced.
+/// Staged files: each is written completely beside its target, and only when all are on the disk do they take
+/// their names, replacing the previous files. An object that is destroyed before commit() leaves nothing
+/// behind, neither files nor the folders it made; files that a killed process leaves are removed by the next
+/// one that stages the same target. A device or FIFO is written as it is, after all files have their names,
+/// and for a link the target is replaced.
 class OutputFiles {
  public:
   OutputFiles() = default;
@@ -30,20 +30,20 @@ class OutputFiles {
   void keep(const std::filesystem::path& input);
 
   /// Writes `content` to a new file beside `target`, whose folder is made when it is missing, and checks that
-  /// every byte reached the disk. A file may be staged once, and may be none that is to be kept. Throws
-  /// OutputError; what was staged before stays staged.
+  /// every byte reached the disk. A file may be staged once, and must not be one that is to be kept. Throws
+  /// OutputError; files staged before stay staged.
   void stage(const std::filesystem::path& target, std::string_view content);
 
-  /// Gives all staged files their names. Throws OutputError; a file that had taken its name by then is taken
-  /// away again, or its predecessor put back. The object is empty afterwards and may be used anew.
+  /// Gives all staged files their names. Throws OutputError; a file that had taken its name by then is
+  /// removed again, or its predecessor put back. The object is empty afterwards and may be used again.
   void commit();
 
  private:
   struct StagedFile {
     OutputTarget target;
     std::filesystem::path temporary;
-    FileDescriptor lock;             // of the temporary file: held as long as this process is at work on it
-    std::filesystem::path previous;  // what stood at the target, set aside; empty when nothing did
+    FileDescriptor lock;             // of the temporary file: held as long as this process works on it
+    std::filesystem::path previous;  // the previous file at the target, set aside; empty when there was none
     FileDescriptor previous_lock;
     bool in_place = false;
   };
@@ -54,12 +54,12 @@ class OutputFiles {
 
   void make_folder(const std::filesystem::path& folder);
   void put_in_place(StagedFile& file);
-  /// Back to how it was before the first stage().
+  /// Restores the state before the first stage().
   void undo() noexcept;
 
   std::vector<std::filesystem::path> kept_;
   std::list<StagedFile> files_;
-  std::vector<StagedText> texts_;  // for what is written as it is
+  std::vector<StagedText> texts_;  // for targets that are written as they are
   std::vector<std::filesystem::path> made_folders_;
 };
 

@@ -41,7 +41,7 @@ int descriptor_of(const Status& status) {
   return -1;
 }
 
-/// Where a chain of links ends, whether something is there or not.
+/// The end of a chain of links, whether something is there or not.
 fs::path end_of_links(const fs::path& name) {
   fs::path path = name;
   for (int followed = 0; followed < kLinkLimit; ++followed) {

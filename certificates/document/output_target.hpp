@@ -1,4 +1,5 @@
-// What the name of an output stands for: a file to be replaced, or something that is written as it is.
+// The target that the name of an output stands for: a file to be replaced, or something that is written as it
+// is.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +20,11 @@ class OutputError : public std::runtime_error {
   std::string reason_;
 };
 
-/// Where the content of an output goes.
+/// The destination of an output.
 struct OutputTarget {
   std::filesystem::path name;  ///< as the user gave it, for messages
   std::filesystem::path file;  ///< the file that is made or replaced: links are followed
-  /// A device, a FIFO, or what standard output or error already write to: it is opened and written, never
-  /// replaced.
+  /// A device, a FIFO, or the target of standard output or error: it is opened and written, never replaced.
   bool as_it_is = false;
   int open_descriptor = -1;  ///< standard output or error when the target is that; otherwise negative
 };

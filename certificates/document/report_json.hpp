@@ -1,4 +1,4 @@
-// report.json: all that is reported of a design, verified or not.
+// report.json: everything that is reported about a design, verified or not.
 #pragma once
 
 #include <string>

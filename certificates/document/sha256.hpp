@@ -1,4 +1,4 @@
-// The SHA-256 of a text, by which a file is known.
+// The SHA-256 of a text, which identifies a file.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a kind of tracker is to a certificate: one record for each, made in its column. The registry
+// The interface of a kind of tracker to certificates: one record for each, made in its column. The registry
 // (certificates/registry.cpp) knows them all; nothing else asks which tracker a design is for.
 #pragma once
 
@@ -21,27 +21,28 @@ namespace veritrack::certificates {
 
 struct TrackerKind {
   std::string_view name;  ///< as the key `tracker` of a design file names it
-  /// The tables of the design as certificate.json repeats them: an object with a member a table. What no
-  /// proof rests on is left out.
+  /// The tables of the design as certificate.json repeats them: an object with one member for each table.
+  /// Values that no proof rests on are left out.
   Json (*design_json)(const Design& design);
-  /// Adds everything that can be said of the design. Needs the upward mode.
+  /// Adds every statement on the design. Needs the upward mode.
   void (*certify)(Certificate& certificate, const CertifyProgress& progress);
   /// The claims that answer, on the first page.
   std::vector<const Claim*> (*answers)(const Certificate& certificate);
   /// The sections between what was required and how to reproduce it.
   std::string (*sections)(const Certificate& certificate, const MarkdownOptions& options);
 
-  // What not every kind has: null where it has none.
+  // Members that not every kind has: null where it has none.
 
-  /// What the first page reports beside the answers.
+  /// The first page's reports beside the answers.
   std::string (*remarks)(const Certificate& certificate) = nullptr;
 
-  /// Adds, of everything that `certify` adds, what publications say: the derivations and claims that
+  /// Adds only the part of `certify` on publications: the derivations and claims that
   /// theorems::find_paper_place knows. Takes a second at most. Needs the upward mode.
   void (*published_results)(Certificate& certificate) = nullptr;
-  /// The sections of published-theorems.md: what the papers say of the design. Empty when that is nothing.
+  /// The sections of published-theorems.md: the statements of the papers about the design. Empty when there
+  /// are none.
   std::string (*published)(const Certificate& certificate) = nullptr;
-  /// Its search ends when the deadline of the certificate is over.
+  /// Whether its search ends at the deadline of the certificate.
   bool limited_in_time = false;
   /// Members of certificate.json beside derivations and claims, from which something is verified.
   Json (*evidence_json)(const Certificate& certificate) = nullptr;
@@ -51,14 +52,14 @@ struct TrackerKind {
   FormalProofs (*formal_proofs)(const Certificate& certificate) = nullptr;
   /// Opens its own rounding scopes.
   TuningResult (*tune)(const Design& design, const TuningRequest& request) = nullptr;
-  /// What `tune` can make best; the first that fits what is assumed is what it makes best unless asked.
+  /// The objectives of `tune`; the first that fits the assumptions is the default.
   std::span<const std::string_view> tuning_objectives = {};
   /// The step as text. Opens its own rounding scopes.
   std::string (*show)(const Design& design, CodeLanguage language) = nullptr;
-  /// The tracker in double precision, and what is assumed of its signal. Throws NotTrackable. Opens its own
+  /// The tracker in double precision, and the assumptions on its signal. Throws NotTrackable. Opens its own
   /// rounding scopes.
   TrackerOnSamples (*track)(const Design& design) = nullptr;
-  /// What is proved of the frequency error. Needs the upward mode.
+  /// The proved bounds on the frequency error. Needs the upward mode.
   FrequencyPromise (*frequency_promise)(const Certificate& certificate) = nullptr;
 };
 
@@ -66,7 +67,7 @@ struct TrackerKind {
 [[nodiscard]] std::span<const TrackerKind* const> tracker_kinds();
 
 /// The kind of tracker that a design is for. Throws std::logic_error when the registry has none of that name,
-/// which no design that was read can bring about.
+/// which cannot happen for a design that was read.
 [[nodiscard]] const TrackerKind& kind_of(const Design& design);
 
 /// The names of the kinds that have what `has` asks for, as a sentence lists them: "a", "a or b".

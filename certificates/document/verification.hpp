@@ -1,4 +1,4 @@
-// What the checker said of a certificate and its documents before they were given out.
+// The checker's answer on a certificate and its documents before they were written.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct RefusedPart {
   std::vector<std::string> objections;
 };
 
-/// What veritrack-verify of this release said.
+/// The answer of this release's veritrack-verify.
 struct Verification {
   enum class Outcome {
     left_out,  ///< it was not asked
@@ -21,7 +21,7 @@ struct Verification {
     refused    ///< it does not, or it gave no answer
   };
   Outcome outcome = Outcome::left_out;
-  std::size_t parts = 0;                  ///< that it looked at
+  std::size_t parts = 0;                  ///< that it examined
   std::vector<RefusedPart> refused = {};  ///< empty when it gave no answer
   std::string failure = {};               ///< why it gave no answer, in one line; empty when it gave one
 };

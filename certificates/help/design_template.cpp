@@ -13,7 +13,7 @@ namespace veritrack::certificates {
 namespace {
 
 const EmbeddedText* find_template(std::string_view tracker) {
-  // Its first line with a tracker: one of another may stand further below.
+  // Its first line with a tracker: one for another tracker may stand further below.
   const std::string line = fmt::format("\ntracker = \"{}\"", tracker);
   const auto found =
       std::find_if(design_templates().begin(), design_templates().end(), [&](const EmbeddedText& text) {

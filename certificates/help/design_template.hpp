@@ -1,4 +1,4 @@
-// Design files to begin with, one for each tracker.
+// Template design files, one for each tracker.
 #pragma once
 
 #include <string>

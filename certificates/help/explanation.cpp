@@ -92,7 +92,7 @@ Explanation explained_key(std::string_view tracker, std::string path, const Boun
   throw std::logic_error(fmt::format("the key {} of {} has no explanation", path, tracker));
 }
 
-/// Adds the explanation, or the tracker to one that says the same.
+/// Adds the explanation, or adds the tracker to an equal one.
 void add_key(std::vector<Explanation>& all, Explanation explanation) {
   const auto same = std::find_if(all.begin(), all.end(), [&](const Explanation& other) {
     return other.name == explanation.name && other.parts == explanation.parts;

@@ -1,4 +1,4 @@
-// What the keys of a design file and the claims of a certificate mean.
+// Explanations of the keys of a design file and the claims of a certificate.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace veritrack::certificates {
 
-/// What one key or claim means.
+/// The explanation of one key or claim.
 struct Explanation {
   std::string name;                   ///< "design.q1" or "ekf/guarantee"
   std::vector<std::string> trackers;  ///< whose key it is; empty for a claim
-  /// What is said of it, each under a heading such as "Unit".
+  /// The texts on it, each under a heading such as "Unit".
   std::vector<std::pair<std::string, std::string>> parts;
 };
 
@@ -21,14 +21,14 @@ struct Explanation {
 /// no explanation.
 [[nodiscard]] const std::vector<Explanation>& explanations();
 
-/// What the word may mean: a claim's id, a key with its table ("design.q1") or without ("q1"), or a table
-/// ("assume"), then all its keys. Empty when it means nothing.
+/// The possible meanings of the word: a claim's id, a key with its table ("design.q1") or without ("q1"), or
+/// a table ("assume"), then all its keys. Empty when it has none.
 [[nodiscard]] std::vector<Explanation> explain(std::string_view word);
 
-/// The word that is explained and is most like this one.
+/// The explained word that is most like this one.
 [[nodiscard]] std::string nearest_explained(std::string_view word);
 
-/// What is explained in words of which this is one, in small letters or capitals: some names, the first ones.
+/// Explanations whose text contains this word, in small letters or capitals: the first few names.
 [[nodiscard]] std::vector<std::string> explanations_with(std::string_view word);
 
 }  // namespace veritrack::certificates

@@ -1,5 +1,5 @@
-// Texts that stand in the program: files of the columns for people, and the papers' designs, made a part of
-// it by CMake.
+// Texts that are part of the program: files of the columns for people, and the papers' designs, included by
+// CMake.
 #pragma once
 
 #include <string_view>
@@ -7,12 +7,12 @@
 
 namespace veritrack::certificates {
 
-/// A file: its path from the root of the sources, and what is in it.
+/// A file: its path from the root of the sources, and its content.
 struct EmbeddedText {
   std::string_view name, text;
 };
 
-/// certificates/*/*explanations.toml: what keys and claims mean.
+/// certificates/*/*explanations.toml: the meanings of keys and claims.
 [[nodiscard]] const std::vector<EmbeddedText>& explanation_texts();
 /// certificates/*/new.toml: a design file to begin with for each tracker.
 [[nodiscard]] const std::vector<EmbeddedText>& design_templates();

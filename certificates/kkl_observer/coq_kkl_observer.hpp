@@ -1,4 +1,5 @@
-// What Coq can check of a certificate: the identities of the KKL observer and the lower bound on its ell.
+// The parts of a certificate that Coq can check: the identities of the KKL observer and the lower bound on
+// its ell.
 #pragma once
 
 #include "certificates/document/certificate.hpp"
@@ -6,7 +7,7 @@
 
 namespace veritrack::certificates::coq {
 
-/// certificate.v, and what it proves. Needs the upward mode.
+/// certificate.v, and its statements. Needs the upward mode.
 [[nodiscard]] FormalProofs kkl_observer_proofs(const Certificate& certificate);
 
 }  // namespace veritrack::certificates::coq

@@ -37,7 +37,7 @@ kkl_observer::Disturbance disturbance_of(const KklAssumptions& assume) {
   return kkl_observer::SinusoidalDisturbance{given.amplitude->value, given.frequency->value};
 }
 
-/// What the estimates are computed from, and how.
+/// The input of the estimates, and the way they are computed.
 std::string arithmetic(const KklDesignTable& design) {
   if (design.sampling_interval) {
     return fmt::format(
@@ -71,7 +71,7 @@ std::string hypotheses(const KklObserverTables& tables) {
                    text, given.amplitude->text, given.frequency->text);
 }
 
-/// What is proved of the errors, once settled: the end of every sentence.
+/// The proved bounds on the errors, once settled: the end of every sentence.
 std::string proved_bounds(const Certificate& certificate, const std::string& name) {
   constexpr int kDigits = 3;
   const auto bound = [&](const char* which) {
@@ -85,7 +85,7 @@ std::string proved_bounds(const Certificate& certificate, const std::string& nam
                                  : from + "it is at most " + bound(name.c_str());
 }
 
-/// A requirement on a proved bound: `requirement` says what is required of the quantity of that name.
+/// A requirement on a proved bound: `requirement` states the requirement on the quantity of that name.
 Claim bound_claim(const Certificate& certificate, const std::string& id, const std::string& name,
                   const std::string& requirement, const std::string& unit, const Number& required) {
   Claim claim;

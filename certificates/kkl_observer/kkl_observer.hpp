@@ -1,4 +1,4 @@
-// What is certified of a design of the KKL observer.
+// The certificate of a design of the KKL observer.
 #pragma once
 
 #include "analysis/kkl_observer/kkl_ell.hpp"
@@ -14,7 +14,7 @@ namespace veritrack::certificates {
 /// Needs the upward mode.
 void certify_kkl_observer(Certificate& certificate, const CertifyProgress& progress);
 
-/// Of these, ell and the claims of the paper alone. Needs the upward mode.
+/// The same with ell and the claims of the paper alone. Needs the upward mode.
 void kkl_observer_published_results(Certificate& certificate);
 
 /// Chooses the rates of an observer with four filters for a small frequency error under the assumed
@@ -34,13 +34,13 @@ template <int M = 4>
   return range;
 }
 
-/// What is asked of the robustness of an observer with M filters, four to eight, and an ell in use. Needs the
-/// upward mode.
+/// The question about the robustness of an observer with M filters, four to eight, and an ell in use. Needs
+/// the upward mode.
 template <int M = 4>
 [[nodiscard]] kkl_observer::KklRobustnessQuestionOf<M> kkl_robustness_question(
     const KklObserverTables& tables, const rigor::Interval& ell);
 
-/// The rates of a design that has those of the paper's section V, (1, 2, 3, 4) 1/s.
+/// The rates of a design, if they are those of the paper's section V, (1, 2, 3, 4) 1/s.
 [[nodiscard]] std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables);
 
 /// The ell that an observer runs with: the design's, or the lower end of the proved one.
@@ -53,7 +53,7 @@ struct KklEll {
 /// Decided from the design and the derivation "kkl-ell" of its certificate.
 [[nodiscard]] KklEll kkl_ell_in_use(const Certificate& certificate);
 
-/// The proved bound of that name ("frequency_error_bound", "amplitude_error_bound", "settling_time"); none
+/// The proved bound of that name ("frequency_error_bound", "amplitude_error_bound", "settling_time"); empty
 /// when nothing was proved.
 [[nodiscard]] std::optional<rigor::Interval> proved_kkl_bound(const Certificate& certificate,
                                                               const std::string& name);

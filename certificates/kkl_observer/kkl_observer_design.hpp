@@ -17,7 +17,7 @@ struct KklDesignTable {
   std::optional<Number> sampling_interval;
 };
 
-/// What may be added to the signal: nothing is known but a bound, or a sinusoid of at least that frequency.
+/// The disturbance added to the signal: known only by a bound, or a sinusoid of at least that frequency.
 struct KklDisturbance {
   std::optional<Number> bound;      ///< signal units
   std::optional<Number> amplitude;  ///< signal units, of the sinusoid
@@ -45,7 +45,7 @@ struct KklObserverTables {
   KklRequirements require;
 };
 
-/// Of a design of this tracker. Throws std::logic_error for another.
+/// The tables of a design of this tracker. Throws std::logic_error for another.
 [[nodiscard]] inline const KklObserverTables& kkl_observer_tables(const Design& design) {
   return tables_of<KklObserverTables>(design);
 }

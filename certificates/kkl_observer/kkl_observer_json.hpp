@@ -6,7 +6,7 @@
 
 namespace veritrack::certificates {
 
-/// The tables of the design, with a member a table.
+/// The tables of the design, one member for each.
 [[nodiscard]] Json kkl_observer_design_json(const Design& read);
 
 }  // namespace veritrack::certificates

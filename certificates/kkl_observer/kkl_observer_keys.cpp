@@ -41,7 +41,7 @@ std::array<Number, 2> range(const TomlValue& value) {
   const std::vector<TomlValue> bounds = value.elements(2);
   const Number lowest = bounds[0].real(positive);
   const Number highest = bounds[1].real(positive);
-  // As for the other trackers: what is certified is the hull of the two intervals.
+  // As for the other trackers: the certificate is for the hull of the two intervals.
   const bool hull_is_ordered = lowest.value.lower() <= highest.value.upper();
   if (!hull_is_ordered) {
     value.refuse("[" + printable(lowest.text, 40) + ", " + printable(highest.text, 40) + "]");

@@ -1,4 +1,4 @@
-// The KKL observer at work on samples.
+// The KKL observer run on samples.
 #include "certificates/kkl_observer/kkl_observer_run.hpp"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ class KklRun : public TrackerRun {
     observer_.step_interpolated(last_, sample[0]);
     last_ = sample[0];
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    // Where the estimate of the squared frequency is negative, it is no frequency: 0, which is no lock.
+    // Where the estimate of the squared frequency is negative, there is no frequency: 0, which is not a lock.
     const double squared = observer_.state()(2);
     const double frequency = std::isnan(squared) ? kNone : std::sqrt(std::max(0.0, squared)) * interval_;
     return {frequency, kNone, {kNone, kNone}, kNone};

@@ -1,4 +1,4 @@
-// The KKL observer at work on samples.
+// The KKL observer run on samples.
 #pragma once
 
 #include "certificates/design/design.hpp"

@@ -12,7 +12,7 @@ namespace veritrack::certificates {
 /// The claims of [require] that are decided.
 [[nodiscard]] std::vector<const Claim*> kkl_observer_answers(const Certificate& certificate);
 
-/// Design, assumptions, what is certified of them, figures and coverage.
+/// Design, assumptions, the certified statements, figures and coverage.
 [[nodiscard]] std::string kkl_observer_sections(const Certificate& certificate,
                                                 const MarkdownOptions& options);
 

@@ -15,7 +15,7 @@ struct BandPart {
   std::string to;
 };
 
-/// `range` in rad/sample, inside the band. None when nothing is left between the decimals. Needs the upward
+/// `range` in rad/sample, inside the band. Empty when nothing is left between the decimals. Needs the upward
 /// rounding mode.
 [[nodiscard]] std::optional<BandPart> band_part(const ModelAssumptions& assume,
                                                 const model::FrequencyRange& range);

@@ -54,7 +54,7 @@ FilterBelief::FilterBelief(const Model& model, std::size_t states)
   }
 }
 
-/// Where the variance of a state stands among the inputs.
+/// The place of a state's variance among the inputs.
 std::size_t FilterBelief::variance_of(std::size_t state) const {
   // The upper triangle, row by row: the rows above have states, states - 1, ... entries.
   return constants_ + states_ + state * states_ - state * (state - 1) / 2;
@@ -77,7 +77,7 @@ double FilterBelief::frequency_deviation(std::span<const double> inputs) {
   if (frequency_state_) {
     return std::sqrt(inputs[*frequency_state_]);
   }
-  constexpr double kStep = 1e-6;  // relative: what is lost in rounding and in the remainder is about equal
+  constexpr double kStep = 1e-6;  // relative: the losses in rounding and in the remainder are about equal
   shifted_.assign(inputs.begin(), inputs.end());
   gradient_.resize(states_);
   for (std::size_t i = 0; i < states_; ++i) {

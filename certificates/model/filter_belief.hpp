@@ -1,4 +1,5 @@
-// What an extended Kalman filter of [model.ekf] believes of its innovation and of its frequency.
+// The covariances that an extended Kalman filter of [model.ekf] assigns to its innovation and to its
+// frequency.
 #pragma once
 
 #include <array>
@@ -15,15 +16,15 @@ namespace veritrack::certificates {
 /// them as its results.
 class FilterBelief {
  public:
-  /// `states` in number are those of the filter's model, without the covariance. Throws std::logic_error for
-  /// a recursion that was not written out from a filter.
+  /// `states`: the number of states of the filter's model, without the covariance. Throws std::logic_error
+  /// for a recursion that was not written out from a filter.
   FilterBelief(const Model& model, std::size_t states);
 
   struct Innovation {
     std::array<double, 2> value;
     double nis;
   };
-  /// Of the step from this state with these samples. `inputs`: constants, state, samples.
+  /// For the step from this state with these samples. `inputs`: constants, state, samples.
   [[nodiscard]] Innovation innovation(std::span<const double> inputs);
 
   /// The deviation of the estimated frequency, rad/sample, to first order. `inputs`: constants, state.

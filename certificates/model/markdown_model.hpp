@@ -1,4 +1,4 @@
-// certificate.md of a model: what stands above what was required, and below it.
+// certificate.md of a model: the parts above and below what was required.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace veritrack::certificates {
 
-/// What is decided and not required.
+/// The decided claims that are not required.
 [[nodiscard]] std::vector<const Claim*> model_answers(const Certificate& certificate);
-/// That there is nothing of it, where there is not.
+/// States that there are none, where that is so.
 [[nodiscard]] std::string model_remarks(const Certificate& certificate);
 
 /// The design, the certified sets, bias and ripple, the recursion, and what is covered. Runs the attack of

@@ -17,13 +17,13 @@ namespace {
 
 using model::FrequencySlice;
 
-/// Cells of frequencies, joined: the hull of what is known of them.
+/// Cells of frequencies, joined: the hull of their bounds.
 std::vector<FrequencySlice> joined(const std::vector<FrequencySlice>& cells, std::size_t most) {
   std::vector<FrequencySlice> rows;
   const std::size_t size = (cells.size() + most - 1) / most;
   std::size_t count = 0;
   for (const FrequencySlice& cell : cells) {
-    // Ends are doubles near each other; a row must not span what has no cell.
+    // Ends are doubles near each other; a row must not span a gap without a cell.
     const bool is_next = !rows.empty() && cell.low - rows.back().high < 1e-9 * cell.low;
     if (!is_next || count == size) {
       rows.push_back(cell);

@@ -24,7 +24,7 @@ using model::ProvedTube;
 using rigor::Direction;
 using rigor::to_decimal;
 
-/// A set, and what it is for.
+/// A set, and its purpose.
 struct NamedSet {
   const ProvedSet* set;
   std::string purpose;
@@ -67,7 +67,7 @@ std::vector<NamedSet> named_sets(const ModelSets& sets, const ModelAssumptions& 
   return named;
 }
 
-/// After so many samples every start is at the lowest level.
+/// The number of samples after which every start is at the lowest level.
 double samples_to_settle(const ProvedSet& set, const ProvedSet* long_run) {
   double samples = 0.0;
   std::size_t number = 0;  // of the tube, which is that of the long run's
@@ -175,7 +175,7 @@ std::string objections(const NamedSet& named) {
   return text + "\n";
 }
 
-/// What simulations reach of the bounds of the set that decides.
+/// The share of the deciding set's bounds that simulations reach.
 std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
                       const FrequencyUnits& units) {
   const ProvedSet& set = *named.set;
@@ -200,7 +200,7 @@ std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
       attack.frequency_error / set.frequency_error, attack.level_share);
 }
 
-/// How the proved bound compares with what errors come to in the linear approximation.
+/// The proved bound compared with the errors in the linear approximation.
 std::string linear_comparison(const ModelSets& sets, const FrequencyUnits& units) {
   if (!sets.linear || !sets.assumed || !(sets.linear->disturbed > 0.0)) {
     return "";
@@ -225,7 +225,7 @@ std::string linear_comparison(const ModelSets& sets, const FrequencyUnits& units
   return text + "\n\n";
 }
 
-/// Into how many parts the range of a constant amplitude is cut.
+/// The number of parts into which the range of a constant amplitude is cut.
 std::string parts_sentence(const ModelSets& sets) {
   std::size_t parts = sets.starts.tubes.amplitudes.size();
   for (const std::optional<ProvedSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {

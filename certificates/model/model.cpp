@@ -59,7 +59,7 @@ std::vector<NamedFormula> parameters_of(const ModelTable& table) {
   return parameters;
 }
 
-/// Throws LanguageError: the name is none of the states.
+/// Throws LanguageError: the name is not a state.
 [[noreturn]] void refuse_state(const SourceText& name, const std::vector<std::string>& states) {
   throw LanguageError(name.position, fmt::format("{} is no state; nearest: {}; allowed: {}", name.text,
                                                  nearest_key(name.text, states), fmt::join(states, ", ")));
@@ -98,7 +98,7 @@ std::vector<const Expression*> pointers(const std::vector<Expression>& formulas)
   return result;
 }
 
-/// What the step is made of: its lines, or the model of a filter.
+/// The source of the step: its lines, or the model of a filter.
 struct Recipe {
   Position position;
   std::vector<Definition> step;
@@ -176,8 +176,8 @@ void require_symmetric(const std::vector<std::vector<SourceText>>& rows,
   }
 }
 
-/// Throws LanguageError for a unit of what is no state, and where a unit contradicts what the value is used
-/// as.
+/// Throws LanguageError for a unit of something that is not a state, and where a unit contradicts the use of
+/// the value.
 void require_units(const ModelTable& table, const std::vector<std::string>& states) {
   const auto is_one_of = [](const std::string& unit, std::initializer_list<std::string_view> units) {
     return std::find(units.begin(), units.end(), unit) != units.end();

@@ -20,7 +20,7 @@ struct Model {
   std::vector<std::string> samples;
   std::vector<std::string> states;
   trackers::Recursion recursion;
-  /// Of a filter with a linear measurement, whose frequency is a formula of the estimate.
+  /// For a filter with a linear measurement, whose frequency is a formula of the estimate.
   std::optional<trackers::FilterParts> filter;
   language::CompiledProgram step;           ///< of the recursion, with places and names
   language::CompiledProgram frequency;      ///< likewise
@@ -36,12 +36,12 @@ struct Model {
 /// the upward rounding mode.
 [[nodiscard]] Model make_model(const ModelTable& table, const std::vector<SourceText>& signal);
 
-/// What each state may deviate by at the start, at most; 0 for those that are not named. Throws
+/// The largest deviation of each state at the start; 0 for those that are not named. Throws
 /// language::LanguageError. Needs the upward rounding mode.
 [[nodiscard]] std::vector<rigor::Interval> start_deviations(const Model& model, const ModelTable& table,
                                                             const std::vector<NamedText>& start_within);
 
-/// The state in which the tracker is started, one for each state, or none where none is given. Throws
+/// The state in which the tracker is started, a value for each state, or none where none is given. Throws
 /// language::LanguageError, also where a state is missing. Needs the upward rounding mode.
 [[nodiscard]] std::vector<rigor::Interval> exact_start(const Model& model, const ModelTable& table,
                                                        const std::vector<NamedText>& start_exactly);

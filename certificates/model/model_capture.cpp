@@ -10,7 +10,7 @@ namespace veritrack::certificates {
 
 namespace {
 
-/// For how long simulations are run.
+/// The length of simulations.
 constexpr std::size_t kMostSimulatedSamples = 20'000;
 /// Parts of a turn to begin with.
 constexpr int kFirstPhases = 16;
@@ -31,7 +31,7 @@ std::string turning_angle(const Model& model, const model::TubeSet& tubes) {
   return {};
 }
 
-/// Parts of the frequencies of a tube in which the phase differs little after so many samples.
+/// Parts of the frequencies of a tube in which the phase differs little after this many samples.
 int parts_of_frequencies(const model::TubeSet& tubes, std::size_t samples) {
   constexpr double kMostRadians = 0.4;
   constexpr double kMostParts = 1024.0;
@@ -79,7 +79,7 @@ ModelCapture capture_of(const Model& model, const model::TrackerModel& tracker,
   }
   capture.phases = kFirstPhases;
   capture.frequencies = parts_of_frequencies(tubes, simulated);
-  // Wide cells come in late: first, cells are halved that are not there soon after simulations are.
+  // Wide cells arrive late: first, cells are halved that do not arrive soon after simulations do.
   model::StartCapture found;
   for (const bool is_soon : {true, false}) {
     const model::StartQuestion question{start, noise,
@@ -95,7 +95,7 @@ ModelCapture capture_of(const Model& model, const model::TrackerModel& tracker,
     capture.reason = found.reason;
     return capture;
   }
-  // Some to spare, so that an independent program need not be as sharp.
+  // A few more, for a checker whose bounds are cruder.
   capture.is_proved = true;
   capture.samples = static_cast<int>(found.samples + std::max<std::size_t>(4, found.samples / 16));
   const rigor::Interval& error = found.frequency_error;

@@ -1,4 +1,4 @@
-// The start that a design knows exactly: whether the tracker comes from it into the certified set.
+// The exactly known start of a design: whether the tracker gets from it into the certified set.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@
 
 namespace veritrack::certificates {
 
-/// What is proved of start_exactly, for the frequencies that the set covers.
+/// The result for start_exactly, for the frequencies that the set covers.
 struct ModelCapture {
   bool is_proved = false;
   std::string reason;            ///< why not
-  int samples = 0;               ///< after so many, at most, the tracker is in the set, with some to spare
+  int samples = 0;               ///< after at most this many the tracker is in the set, with some to spare
   double frequency_error = 0.0;  ///< until then, at most, rad/sample; infinite when it is not known
   int phases = 0;  ///< the first grid over the phases of a turn and the frequencies of each tube
   int frequencies = 0;

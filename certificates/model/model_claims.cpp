@@ -62,7 +62,7 @@ class ModelClaims {
       add_part(claim, scope.part);
       claim.statement +=
           fmt::format(", the frequency error stays at or below {} for ever", units_.at_most(bound));
-      // No less in the long run than ever says nothing.
+      // A bound in the long run that is no smaller than the bound at every sample adds nothing.
       if (settled_error() < deciding_->frequency_error && above(settled_error()) != bound && settles()) {
         const std::string settled = above(settled_error());
         claim.values.emplace_back("settled_frequency_error", settled);
@@ -190,7 +190,7 @@ class ModelClaims {
     claim.verdict = Verdict::proved;
     return claim;
   }
-  /// " (by the set "assumed" of the certificate)", of a set that was made for something else.
+  /// " (by the set "assumed" of the certificate)", for a set that was made for something else.
   static std::string by_set(const ProvedSet& set, const char* usual) {
     return set.tubes.name == usual ? std::string()
                                    : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
@@ -239,7 +239,7 @@ class ModelClaims {
     add_part(claim, limits.part);
     add(claim);
   }
-  /// The noise of the set that tolerates so much slew is tolerated together with it.
+  /// The noise of the set that tolerates this slew is tolerated together with it.
   void add_slew_limit(const SlewLimit& limit) {
     const ModelWords words = words_for(limit.part);
     Claim claim = reported("model/slew-limit", words.tone_with("a frequency that stays in " + words.band()));
@@ -260,7 +260,7 @@ class ModelClaims {
     add_part(claim, limit.part);
     add(claim);
   }
-  /// Where the set is proved.
+  /// The frequencies for which the set is proved.
   [[nodiscard]] Scope scope_of(const ProvedSet& set) const {
     Scope scope;
     if (!sets_->objection.empty() || (!set.is_proved() && !set.has_part())) {
@@ -293,7 +293,7 @@ class ModelClaims {
     return claim;
   }
 
-  /// PROVED when it is known and `bound` is below (with `or_equal`: at most) what is required.
+  /// PROVED when it is known and `bound` is below (with `or_equal`: at most) the required one.
   void decide(Claim& claim, bool is_known, double bound, const Number& number, std::string_view reason,
               const std::string& objection, bool or_equal = false) {
     if (!is_known || !std::isfinite(bound)) {
@@ -338,7 +338,7 @@ class ModelClaims {
     return " in which the frequency error stays at or below " + units_.at_most(above(set.frequency_error));
   }
 
-  /// From some sample on below what is required, by the levels of each tube.
+  /// From some sample on below the required error, by the levels of each tube.
   Claim settling(const std::string& assumed) {
     const Number& within = *tables_->require.sets.settles_within;
     const Number& target = *tables_->require.sets.settled_below;
@@ -394,7 +394,8 @@ class ModelClaims {
   }
   [[nodiscard]] const char* deciding_name() const { return sets_->assumed ? "assumed" : "starts"; }
 
-  /// After how many samples the error is below the target at all frequencies; infinity when it is not known.
+  /// The number of samples after which the error is below the target at all frequencies; infinity when it is
+  /// not known.
   [[nodiscard]] double samples_below(const Number& target) const {
     const Model model = make_model(tables_->model, tables_->assume.signal);
     const model::TrackerModel tracker = proved_model(model, tables_->assume);
@@ -433,7 +434,7 @@ class ModelClaims {
   /// Then nothing holds for ever.
   [[nodiscard]] bool is_gaussian() const { return tables_->assume.gaussian.has_value(); }
   [[nodiscard]] bool covers_assumptions() const { return sets_->objection.empty() && deciding_->is_proved(); }
-  /// Of the set that decides, for the frequencies that it covers.
+  /// Claims of the set that decides, for the frequencies that it covers.
   [[nodiscard]] bool keeps_starts() const {
     return deciding_->start_share <= 1.0 && std::isfinite(deciding_->frequency_error);
   }
@@ -457,7 +458,7 @@ class ModelClaims {
            std::all_of(starts.tubes.tubes.begin(), starts.tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
-  /// `is_met`: what is required is proved for the frequencies that the set covers.
+  /// `is_met`: the requirement is proved for the frequencies that the set covers.
   [[nodiscard]] std::string objection_of(const ProvedSet& set, bool is_met = false) const {
     std::string text = "No set of tubes was proved for the whole band";
     if (const Scope scope = scope_of(set); scope.part) {
@@ -476,7 +477,7 @@ class ModelClaims {
     }
     return objection_of(*deciding_, is_met) + (deciding_->is_proved() ? std::string() : tolerated());
   }
-  /// Where no set was proved for the assumed noise and slew: for which it was.
+  /// Where no set was proved for the assumed noise and slew: the noise and slew for which one was.
   [[nodiscard]] std::string tolerated() const {
     std::string text;
     const auto tell = [&](const std::optional<ProvedSet>& set, double model::TubeSet::*size,
@@ -497,7 +498,7 @@ class ModelClaims {
     tell(sets_->slew, &model::TubeSet::slew, "slew without noise", " rad/sample per sample");
     return text;
   }
-  /// Why the largest noise or slew is not known for the whole band.
+  /// The reason why the largest noise or slew is not known for the whole band.
   [[nodiscard]] std::string objection_to_size(const std::optional<ProvedSet>& set,
                                               double model::TubeSet::*size, std::string_view what) const {
     if (!set || !sets_->objection.empty()) {

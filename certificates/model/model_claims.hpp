@@ -5,7 +5,7 @@
 
 namespace veritrack::certificates {
 
-/// Adds the claims of [require] and what is reported beside them, decided by the certificate's sets
+/// Adds the claims of [require] and those reported beside them, decided by the certificate's sets
 /// (model_sets.hpp), and the certificate's verdict. Needs the upward rounding mode.
 void add_model_claims(Certificate& certificate);
 

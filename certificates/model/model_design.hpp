@@ -1,4 +1,4 @@
-// The design file of the tracker "model": a recursion that the user has written down.
+// The design file of the tracker "model": a recursion that the user has written.
 #pragma once
 
 #include <array>
@@ -50,7 +50,8 @@ struct ModelAssumptions {
   /// |v(k)| <= noise for every k, signal units. Empty where the noise is Gaussian: nothing follows from it.
   Number noise;
   std::optional<GaussianNoise> gaussian;
-  std::optional<Number> samples;          ///< for how many a probability is asked; given with Gaussian noise
+  std::optional<Number> samples;          ///< the number for which a probability is asked; given with
+                                          ///< Gaussian noise
   Number slew;                            ///< of the frequency
   bool slew_in_hertz_per_second = false;  ///< otherwise rad/sample per sample
   std::vector<NamedText> start_within;    ///< of states: deviations from the curve at the start, at most
@@ -78,7 +79,7 @@ struct ModelTables {
   ModelRequirements require;
 };
 
-/// Of a design of this tracker. Throws std::logic_error for another.
+/// The tables of a design of this tracker. Throws std::logic_error for another.
 [[nodiscard]] inline const ModelTables& model_tables(const Design& design) {
   return tables_of<ModelTables>(design);
 }

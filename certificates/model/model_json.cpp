@@ -185,7 +185,7 @@ Json model_evidence_json(const Certificate& certificate) {
     }
   };
   const auto add = [&](const ProvedSet& set) {
-    // Nothing is reported of a part of the set for the largest slew.
+    // A part of the set for the largest slew is not reported.
     if (set.is_proved() || (set.has_part() && set.tubes.name != "slew")) {
       list_all(set.tubes);
     }

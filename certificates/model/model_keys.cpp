@@ -120,7 +120,7 @@ void extended_kalman_filter(const TomlValue& value, ModelTable& target) {
   target.ekf = ekf;
 }
 
-/// Q and R are what the engineer chooses; the rest says which recursion it is.
+/// Q and R are choices of the engineer; the rest determines the recursion.
 constexpr std::array kMembersOfEkf{
     MemberContract{"states", Stronger::only_equal},  MemberContract{"predict", Stronger::only_equal},
     MemberContract{"measure", Stronger::only_equal}, MemberContract{"Q", Stronger::neither},
@@ -300,7 +300,7 @@ std::vector<BoundTable> bind_model_tables(std::any& tables) {
           bound_table("require", kModelRequireKeys, target.require)};
 }
 
-/// Starts of which nothing can be reported: in noise or of trackers for which they are not followed.
+/// Starts without a report: in noise or for trackers where they are not followed.
 std::optional<TableObjection> objection_to_exact_start(const ModelTable& model,
                                                        const ModelAssumptions& assume) {
   if (assume.start_exactly.empty()) {

@@ -21,7 +21,7 @@ double reach_of(const ProvedSet& set) {
   return set.reach;
 }
 
-/// Those that the certificate has, in this order; of the set for the largest slew no part is written.
+/// The sets in the certificate, in this order; a part of the set for the largest slew is not written.
 Sets in_order(std::initializer_list<const std::optional<ProvedSet>*> sets,
               const ProvedSet* starts = nullptr) {
   Sets found;
@@ -51,7 +51,7 @@ bool covers(const ProvedSet& set, const Part& part) {
          (part && has_part(set) && set.tubes.part.low <= part->low && part->high <= set.tubes.part.high);
 }
 
-/// Of those that cover the part, and that are a lock. What is no number is no size.
+/// Among those that cover the part, and that are a lock. A value that is not a number is not a size.
 LargestOfSets largest(const Sets& sets, const Part& part, double (*size)(const ProvedSet&)) {
   LargestOfSets found;
   for (const ProvedSet* set : sets) {
@@ -63,7 +63,7 @@ LargestOfSets largest(const Sets& sets, const Part& part, double (*size)(const P
   return found;
 }
 
-/// Where the most is known: the whole band, or else the widest part. Nothing where there is none.
+/// The place of the largest known value: the whole band, or else the widest part. Empty where there is none.
 struct Where {
   Part range;
   std::optional<BandPart> part;

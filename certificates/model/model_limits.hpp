@@ -1,6 +1,6 @@
-// The most that is proved of a model, whichever set it is proved by: a set for some noise shows that so much
-// noise is tolerated, one for a slew that so much slew is, and each of them, without either, how far it
-// reaches. All of it is said of sets that are a lock.
+// The largest numbers that are proved for a model, by any of its sets: a set for some noise shows that this
+// noise is tolerated, one for a slew that this slew is, and each of them, without either, its reach. All of
+// this concerns only sets that are a lock.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace veritrack::certificates {
 
-/// The largest number that some set proves, and the set; 0 and none where there is none. Of equal ones it is
-/// the set that was made for it.
+/// The largest number that some set proves, and the set; 0 and null where there is none. Among equal ones it
+/// is the set that was made for it.
 struct LargestOfSets {
   double size = 0.0;
   const model::ProvedSet* set = nullptr;
@@ -24,7 +24,7 @@ struct ModelLimits {
   LargestOfSets reach;           ///< rad/sample; none with a bias: no set has errors of both signs
   std::optional<BandPart> part;  ///< none: the whole band
 };
-/// Nothing where no noise is proved.
+/// Empty where no noise is proved.
 [[nodiscard]] std::optional<ModelLimits> limits_of(const ModelSets& sets, const ModelAssumptions& assume);
 
 /// For a frequency that moves within the band, or the part.
@@ -32,7 +32,7 @@ struct SlewLimit {
   LargestOfSets slew;  ///< rad/sample per sample, together with the noise of its set
   std::optional<BandPart> part;
 };
-/// Nothing where no slew is proved.
+/// Empty where no slew is proved.
 [[nodiscard]] std::optional<SlewLimit> slew_limit_of(const ModelSets& sets, const ModelAssumptions& assume);
 
 /// Over the whole band.

@@ -25,7 +25,7 @@ using rigor::Verdict;
 
 constexpr double kUsualProbability = 1e-6;
 
-/// With a thousandth of room; infinity when nothing is known.
+/// A thousandth more; infinity when nothing is known.
 double with_some_room(double bound) {
   return std::isfinite(bound) ? (Interval(bound) * Interval(1.001)).upper() : INFINITY;
 }

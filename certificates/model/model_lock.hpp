@@ -1,4 +1,4 @@
-// What is certified of a model in Gaussian noise: how probable it is that it loses its lock.
+// The certified statements on a model in Gaussian noise: the probability that it loses lock.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace veritrack::certificates {
 
-/// A set of tubes for Gaussian noise over the whole band, and what follows from it. Bounds have a thousandth
-/// of room. Infinite where nothing is known.
+/// A set of tubes for Gaussian noise over the whole band, and its consequences. Bounds are a thousandth
+/// wider. Infinite where nothing is known.
 struct ModelLock {
   model::TubeSet tubes;
   double frequency_error = 0.0;  ///< in the set, at most, rad/sample
@@ -24,19 +24,19 @@ struct ModelLock {
   [[nodiscard]] bool is_proved() const { return tubes.is_complete; }
 };
 
-/// Whether sentences about lock may be said of a set with this bound of the frequency error, as they write
-/// it: it is nearer to the true lock than to any false one.
+/// Whether sentences about lock may use a set with this bound of the frequency error, as they write it: it is
+/// nearer to the true lock than to any false one.
 [[nodiscard]] bool names_lock(double frequency_error, double half_distance);
 [[nodiscard]] inline bool names_lock(const model::ProvedSet& set) {
   return names_lock(set.frequency_error, set.half_distance);
 }
-/// Why not.
+/// The reason why not.
 [[nodiscard]] std::string lock_objection(double frequency_error, double half_distance);
 
-/// Where nothing is said of starts: the level of those that statements are about, over R.
+/// Where nothing is assumed about starts: the level of those that statements are about, over R.
 inline constexpr double kStartShare = 0.5;
 
-/// What a search for a set is given. The members refer to what the caller holds.
+/// The input of a search for a set. The members refer to objects of the caller.
 struct LockSearch {
   const ModelTables* tables = nullptr;
   const Model* model = nullptr;
@@ -46,12 +46,12 @@ struct LockSearch {
   search::Deadline deadline;
 };
 
-/// For the assumed noise, or with `lowest_snr` for as much noise as can be proved. Needs the upward rounding
-/// mode.
+/// For the assumed noise, or with `lowest_snr` for the most noise that can be proved. Needs the upward
+/// rounding mode.
 [[nodiscard]] ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr,
                                            const model::SetProgress& progress);
 
-/// What is reported of Gaussian noise, and what is required: claims of the certificate of a model.
+/// The reported and the required claims of a model's certificate in Gaussian noise.
 void add_lock_claims(Certificate& certificate);
 [[nodiscard]] Claim required_lock_claim(const Certificate& certificate);
 

@@ -60,7 +60,7 @@ std::size_t state_called(const Model& model, const std::string& name, const char
   return static_cast<std::size_t>(found - model.states.begin());
 }
 
-/// The two states that deviate. By default the one that the frequency is read from, and an angle or, where
+/// The two states that deviate. By default the one from which the frequency is read, and an angle or, where
 /// there is none, the first other state.
 std::array<std::size_t, 2> mapped_states(const Model& model, const ModelMapRequest& request) {
   std::optional<std::size_t> x;
@@ -151,7 +151,7 @@ double range_of(const MappedState& state, const std::optional<double>& given, bo
   return is_angle ? std::min(range, std::numbers::pi) : range;
 }
 
-/// The tube about the frequency; nothing, and why, when none is proved.
+/// The tube about the frequency; empty, and the reason, when none is proved.
 std::optional<model::ProvedTube> tube_about(const Interval& frequency, const model::TrackedTone& tone,
                                             const model::TrackerModel& tracker, double noise,
                                             std::string& reason) {
@@ -216,7 +216,7 @@ std::size_t ModelMap::longest() const {
 
 namespace {
 
-/// Throws RequestError for what has no map.
+/// Throws RequestError for a design without a map.
 void require_mappable(const ModelTables& tables, const Model& model, const ModelMapRequest& request) {
   if (model.states.size() > kMostMappedStates || model.states.size() < 2) {
     throw RequestError(fmt::format("{} states; a map follows starts of at least 2 and at most {} states",

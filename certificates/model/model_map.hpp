@@ -15,7 +15,7 @@
 
 namespace veritrack::certificates {
 
-/// Which starts are looked at. What is not given is chosen for the design.
+/// The starts that are examined. Values that are not given are chosen for the design.
 struct ModelMapRequest {
   std::optional<std::string> frequency;    ///< a decimal, rad/sample; otherwise the middle of the band
   std::optional<std::string> x, y;         ///< names of the two states that deviate
@@ -32,7 +32,7 @@ struct MappedState {
   double certified = 0.0;  ///< a start that deviates in this state alone is in the tube up to about this
 };
 
-/// What was found at one frequency.
+/// The findings at one frequency.
 struct ModelMap {
   std::string frequency_text;  ///< rad/sample
   rigor::Interval frequency;   ///< contains that decimal, and the double nearest to it
@@ -42,7 +42,7 @@ struct ModelMap {
   model::CaptureGrid grid;
   std::vector<model::CapturedCell> cells;
   model::SimulatedStarts simulated;
-  std::size_t simulated_samples = 0;        ///< for how many samples at most
+  std::size_t simulated_samples = 0;        ///< the most samples of a simulation
   std::vector<std::array<double, 2>> edge;  ///< of the certified set among these starts, not proved
   double frequency_error = 0.0;             ///< in the tube, at most, rad/sample
   double settled_error = 0.0;               ///< in the long run, at most, rad/sample
@@ -54,14 +54,14 @@ struct ModelMap {
   [[nodiscard]] std::size_t longest() const;         ///< samples, of the proved cells
 };
 
-/// What was found, or why nothing could be.
+/// The findings, or the reason why there are none.
 struct ModelMapResult {
   std::optional<ModelMap> found;
   std::string reason;  ///< one sentence when nothing was found
 };
 
-/// Certifies a tube about the frequency and follows the starts into it. Throws RequestError for what the
-/// design does not have, and for more than four states.
+/// Certifies a tube about the frequency and follows the starts into it. Throws RequestError for a request
+/// that does not fit the design, and for more than four states.
 [[nodiscard]] ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
                                        const CertifyProgress& progress = {});
 

@@ -1,4 +1,4 @@
-// What Gaussian noise and bounded noise of a model go with.
+// The keys that go with Gaussian noise, and those that go with bounded noise, of a model.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace veritrack::certificates {
 
-/// Objects to what is assumed or required of the other kind of noise.
+/// Objects to assumptions and requirements that belong to the other kind of noise.
 [[nodiscard]] std::optional<TableObjection> objection_to_noise(const ModelAssumptions& assume,
                                                                const ModelRequirements& require);
 

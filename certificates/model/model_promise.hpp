@@ -1,4 +1,5 @@
-// What the certificate of a model proves of its frequency error, for a system that runs on the estimate.
+// The bounds that the certificate of a model proves on its frequency error, for a system that runs on the
+// estimate.
 #pragma once
 
 #include "certificates/document/certificate.hpp"

@@ -31,12 +31,12 @@ std::vector<double> nearest_constants(const Model& model) {
   return values;
 }
 
-/// The harmonics of the formulas, from samples of one period: of both channels together, those that turn
-/// backwards included; of one, so that the real part is the signal.
+/// The harmonics of the formulas, from samples of one period: for two channels together, including those that
+/// turn backwards; for one, so that the real part is the signal.
 std::vector<Harmonic> harmonics_of(const Model& model, double amplitude) {
   constexpr int kPlaces = 256;
   constexpr int kHighest = 32;
-  constexpr double kSmall = 1e-9;  // what rounding leaves
+  constexpr double kSmall = 1e-9;  // the size of rounding errors
   const int channels = model.recursion.samples;
   std::vector<double> registers;
   std::vector<double> inputs = nearest_constants(model);
@@ -82,7 +82,7 @@ class ModelRun : public TrackerRun {
     constexpr int kSettling = 8192;
     const double omega = first.frequency;
     const double end = first.phase - omega;
-    // The start of the design is that at phase 0: of the last turn, the sample that comes closest to it.
+    // The start of the design is that at phase 0: the sample of the last turn that comes closest to it.
     int length = kSettling;
     double phase = std::remainder(end - length * omega, kTurn);
     const int longest = kSettling + static_cast<int>(std::min(kTurn / std::fabs(omega), 1e4));
@@ -145,7 +145,7 @@ class ModelRun : public TrackerRun {
     return values;
   }
 
-  /// An angle that grows for ever loses its digits: whole turns are taken off.
+  /// An angle that grows for ever loses its digits: whole turns are removed.
   void wind_back() {
     constexpr double kFar = 1e4;  // rad
     const std::vector<bool>& is_angle = model_.recursion.is_angle;

@@ -1,4 +1,4 @@
-// A tracker that a user has written down, at work on samples.
+// A tracker that a user has written, run on samples.
 #pragma once
 
 #include "certificates/design/design.hpp"

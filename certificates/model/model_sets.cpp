@@ -66,7 +66,7 @@ model::TrackerModel proved_model(const Model& model, const ModelAssumptions& ass
     tracker.constants.push_back(constant.value);
   }
   tracker.amplitude = hull(assume.amplitude[0].value, assume.amplitude[1].value);
-  // Of a constant one that is known to be in a range nothing is proved but part by part.
+  // For a constant one that is known to be in a range, proofs are part by part.
   tracker.amplitude_varies = !assume.one_amplitude;
   tracker.filter = model.filter ? &*model.filter : nullptr;
   return tracker;
@@ -77,8 +77,8 @@ bool bounds_covariance(const Model& model, const ModelTables& tables) {
   const bool names_covariance =
       std::any_of(assume.start_within.begin(), assume.start_within.end(),
                   [](const NamedText& entry) { return entry.name.text.starts_with("P."); });
-  // With another F than the derivative no tube was found for Zarchan's third filter in this way, and one in
-  // the other; with more states than these the other is out of reach.
+  // With an F other than the derivative no tube was found for Zarchan's third filter in this way, but one was
+  // found in the other way; with more states than these the other way is out of reach.
   constexpr int kMostWithCovariance = 3;
   const bool prefers_states =
       model.filter && model.filter->has_given_jacobian && model.filter->states <= kMostWithCovariance;
@@ -135,7 +135,7 @@ const ModelSets& model_sets(const Certificate& certificate) {
 
 namespace {
 
-/// Why no sets are searched for; or empty.
+/// The reason why no sets are searched for; or empty.
 std::string objection_to(const Model& model, const model::SearchedBand& band, bool bounds_covariance) {
   constexpr std::size_t kMostStatesInTubes = 16;
   if (!bounds_covariance && model.states.size() > kMostStatesInTubes) {
@@ -166,7 +166,7 @@ model::SetQuestion question_of(const Model& model, const ModelTables& tables, bo
   return question;
 }
 
-/// Progress through parts of a certificate, each of which counts as so many searches.
+/// Progress through parts of a certificate, each of which counts as a number of searches.
 class SharedProgress {
  public:
   SharedProgress(const CertifyProgress& progress, double searches)

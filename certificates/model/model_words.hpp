@@ -19,7 +19,7 @@ namespace veritrack::certificates {
 /// The words of the hypotheses.
 class ModelWords {
  public:
-  /// `part`: of the band, to which statements are limited; none for the whole band.
+  /// `part`: the part of the band to which statements are limited; none for the whole band.
   /// `bounds_covariance`: the sets are those of a filter's estimate, with bounds of its covariance.
   explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt,
                       bool bounds_covariance = false)
@@ -73,7 +73,7 @@ class ModelWords {
     }
     return start_within(set) + covariance_of(set);
   }
-  /// A start in the set of that name.
+  /// For a start in the set of that name.
   [[nodiscard]] std::string started_in(const std::string& set) const {
     return "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
   }
@@ -81,7 +81,7 @@ class ModelWords {
   [[nodiscard]] std::string started_exactly() const {
     return ", started exactly in {" + listed(assume_->start_exactly) + "} at any phase of the signal";
   }
-  /// The same, for statements that depend on how far inside a start is.
+  /// The same, for statements that depend on how deep inside the set a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const {
     return assume_->start_within.empty() ? ", started at a level of at most half of that of the set \"" +
                                                set + "\" of the certificate" + covariance_of(set)
@@ -108,7 +108,7 @@ class ModelWords {
            "\" of the certificate, the other states on it";
   }
 
-  /// Written out or not, the tone alone is a tone.
+  /// Whether the signal is the tone alone, written out or not.
   static bool is_pure_tone(const ModelTables& tables) {
     const std::vector<SourceText> signal = signal_of(tables.model, tables.assume.signal);
     const std::vector<SourceText> tone = signal_of(tables.model, {});

@@ -33,7 +33,7 @@ std::vector<std::string> inputs_of(const Model& model, bool with_samples) {
   return names;
 }
 
-/// How many names and operations a register's formula has, written out down to what has a name.
+/// The number of names and operations in a register's formula, written out down to named registers.
 std::vector<double> lengths_of(const CompiledProgram& compiled) {
   std::vector<double> lengths(static_cast<std::size_t>(compiled.program.inputs()), 1.0);
   for (const trackers::Instruction& made : compiled.program.instructions()) {
@@ -48,7 +48,7 @@ std::vector<double> lengths_of(const CompiledProgram& compiled) {
   return lengths;
 }
 
-/// The formula; a filter that is written out has formulas that nobody could read.
+/// The formula; a filter that is written out has unreadable formulas.
 std::string formula_at(const CompiledProgram& compiled, const std::vector<std::string>& inputs,
                        const std::vector<double>& lengths, int place) {
   constexpr double kLongest = 60.0;

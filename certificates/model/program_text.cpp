@@ -12,7 +12,7 @@ using trackers::Instruction;
 using trackers::Operation;
 using trackers::StraightLineProgram;
 
-/// How tightly a formula binds.
+/// The binding strength of a formula.
 enum Precedence : int { of_sum, of_product, of_sign, of_power, of_atom };
 
 struct Text {
@@ -111,7 +111,8 @@ class Writer {
   std::vector<std::string> names_;
 };
 
-/// How often each register is a result, or an operand of what the results depend on.
+/// The number of times that each register is a result, or an operand of a register that the results depend
+/// on.
 std::vector<int> uses(const StraightLineProgram& program) {
   std::vector<int> counts(static_cast<std::size_t>(program.registers()), 0);
   for (const int place : program.results()) {

@@ -10,7 +10,7 @@
 
 namespace veritrack::certificates {
 
-/// How formulas are written.
+/// The notation of formulas.
 struct FormulaSyntax {
   std::string_view power;  ///< operator of powers; empty: the function power(x, n)
 
@@ -24,15 +24,15 @@ struct Assignment {
 };
 
 /// The lines that compute the results of a program. `inputs` are the names of its inputs, `names` those of
-/// registers that have one, `results` those of the results. What has no name and is used more than once gets
-/// one that begins with `prefix`.
+/// registers that have one, `results` those of the results. A register without a name that is used more than
+/// once gets one that begins with `prefix`.
 [[nodiscard]] std::vector<Assignment> assignments(const trackers::StraightLineProgram& program,
                                                   const std::vector<std::string>& inputs,
                                                   const std::map<int, std::string>& names,
                                                   const std::vector<std::string>& results,
                                                   std::string_view prefix, const FormulaSyntax& syntax);
 
-/// The formula of a register, of inputs and of what has a name.
+/// The formula of a register, in terms of inputs and named registers.
 [[nodiscard]] std::string formula_of(const trackers::StraightLineProgram& program,
                                      const std::vector<std::string>& inputs,
                                      const std::map<int, std::string>& names, int place);

@@ -93,7 +93,7 @@ std::vector<std::string> primed(std::vector<std::string> names) {
   return names;
 }
 
-/// What the code of a model is made of.
+/// The parts of the code of a model.
 class RecursionWriter {
  public:
   RecursionWriter(const Model& model, CodeLanguage language)
@@ -110,8 +110,8 @@ class RecursionWriter {
   [[nodiscard]] const std::vector<std::string>& samples() const { return samples_; }
   [[nodiscard]] std::vector<std::string> next() { return identifiers_.of(primed(model_->states)); }
 
-  /// The states that the step, or the frequency, depends on, and the samples that the step does: statements
-  /// that take them out of arrays are made of the places that are not empty.
+  /// The states on which the step, or the frequency, depends, and the samples on which the step depends: the
+  /// places that are not empty become statements that take them out of arrays.
   [[nodiscard]] std::vector<std::string> states_of_step() const {
     return used(model_->step.program, states_, 0);
   }

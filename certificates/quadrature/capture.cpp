@@ -40,8 +40,8 @@ bool starts_are_outside(const sets::KalmanFilterResult& contraction) {
   });
 }
 
-/// The claim that starts are captured with this noise and slew (the assumed ones when nothing is said), whose
-/// evidence is the derivation.
+/// The claim that starts are captured with this noise and slew (the assumed ones by default), whose evidence
+/// is the derivation.
 Claim claim_of(const Certificate& certificate, const StartCapture& capture, std::string id,
                const std::optional<std::string>& disturbance) {
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
@@ -60,7 +60,7 @@ Claim claim_of(const Certificate& certificate, const StartCapture& capture, std:
   claim.verdict = capture.result.verdict;
   for (const theorems::Condition& condition : capture.result.conditions) {
     if (condition.verdict == claim.verdict) {
-      claim.reason = condition.reason;  // of the last: that of the starts, when the set is as it must be
+      claim.reason = condition.reason;  // of the last one: the condition on the starts, when the set is valid
     }
   }
   for (const theorems::Quantity& quantity : capture.derivation.quantities) {
@@ -72,7 +72,7 @@ Claim claim_of(const Certificate& certificate, const StartCapture& capture, std:
 }
 
 /// Adds the derivation and the claim that all starts are captured under less noise and slew, for the first
-/// share of a few that will do; nothing otherwise.
+/// share that works among a few; otherwise adds nothing.
 void add_capture_at_reduced_noise(Certificate& certificate, const quadrature::CertifiedSet& set,
                                   const std::function<bool(const quadrature::RegionProgress&)>& progress) {
   const ContractionQuestion question = contraction_question(certificate.design);

@@ -23,7 +23,7 @@ std::optional<Interval> above_zero(const theorems::Quantity* quantity) {
   return compares ? std::optional(quantity->value) : std::nullopt;
 }
 
-/// A published result: those that certify a start, a noise or a rate all name them alike.
+/// A published result: those that certify a start, a noise or a rate use the same names for them.
 ComparedResult row_of(const theorems::Derivation& derivation) {
   const auto value_of = [&](const char* name) {
     return above_zero(theorems::applicable_quantity(derivation, name));

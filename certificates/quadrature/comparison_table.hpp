@@ -1,4 +1,5 @@
-// One table for the reader: what each result certifies for the design, and the same from simulation.
+// One table for the reader: the certified numbers of each result for the design, and the same from
+// simulation.
 #pragma once
 
 #include <string>

@@ -31,7 +31,7 @@ struct Statement {
         from(literal(texts.multiples[0])),
         to(literal(texts.multiples[1])) {}
 
-  /// What is assumed of P(0|0).
+  /// The assumption on P(0|0).
   [[nodiscard]] std::string between() const {
     return fmt::format("below (multiple {} lowest_start) m -> below m (multiple {} highest_start)", from, to);
   }
@@ -110,7 +110,7 @@ void prove_steady_state(Proofs& proofs, const EllipsoidQuestion& question, const
 
 constexpr const char* kNotHere = "The theorem about the filter's recursion is not in this file: ";
 
-/// Why a design is not asked about; empty when it is.
+/// The reason why a design is not asked about; empty when it is.
 std::string what_is_not_covered(const QuadratureEkfTables& tables) {
   const Assumptions& assume = tables.assume;
   if (!tables.design.without_leak()) {
@@ -128,7 +128,7 @@ std::string what_is_not_covered(const QuadratureEkfTables& tables) {
   return "";
 }
 
-/// What would help where no set is found.
+/// A remedy where no set is found.
 std::string why_none_is_found(const EkfTexts& texts, const EllipsoidQuestion& question) {
   constexpr int kHalvings = 6;
   std::string help = fmt::format("one was not found with a {}th of them either.", 1 << kHalvings);

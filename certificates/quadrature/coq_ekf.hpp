@@ -8,7 +8,7 @@
 namespace veritrack::certificates::coq {
 
 /// The numbers that Coq checks and the theorems frequency_error_for_ever and frequency_error_in_the_long_run,
-/// to be read after ekf_parts(); or nothing but the reason why they are not there. Needs the upward mode.
+/// to be read after ekf_parts(); or only the reason why they are missing. Needs the upward mode.
 [[nodiscard]] Proofs guarantee_proofs(const QuadratureEkfTables& tables, const StartCovarianceText& start);
 
 }  // namespace veritrack::certificates::coq

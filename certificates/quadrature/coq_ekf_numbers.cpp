@@ -81,7 +81,7 @@ std::string rounded_up(double x) {
 
 }  // namespace
 
-// What the files require of Coq's libraries stands before each module.
+// The Coq libraries that the files require stand before each module.
 std::string ekf_parts() {
   constexpr std::string_view kOwn = "From Veritrack Require Import ";
   constexpr std::string_view kRequire = " Require Import ";

@@ -1,4 +1,4 @@
-// The numbers of a set of errors as Coq's certificate of ekf/guarantee.v, and what they promise.
+// The numbers of a set of errors as Coq's certificate of ekf/guarantee.v, and their promise.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace veritrack::certificates::coq {
 /// The files of certificates/coq/ekf/ as modules of one file.
 [[nodiscard]] std::string ekf_parts();
 
-/// What is asked, in the decimals of the design file.
+/// The question, in the decimals of the design file.
 struct EkfTexts {
   std::string q1, q2, r, noise, slew, amplitude_error, phase_error, frequency_error;
   StartCovarianceText::Entries lowest, highest;
@@ -25,7 +25,7 @@ struct EkfTexts {
 [[nodiscard]] EkfTexts ekf_texts(const QuadratureEkfTables& tables, const StartCovarianceText& start);
 [[nodiscard]] quadrature::EllipsoidQuestion question_of(const EkfTexts& texts);
 
-/// What the theorems say, as decimals.
+/// The numbers of the theorems, as decimals.
 struct EkfPromises {
   std::string error_bound;  ///< rad/sample, at every sample
   long settled_after = 0;   ///< samples

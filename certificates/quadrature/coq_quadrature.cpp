@@ -60,8 +60,8 @@ std::string design_term(const QuadratureEkfTables& tables) {
       decimal(free.c1.text), decimal(free.c2.text));
 }
 
-/// |e_0| for the largest errors that are assumed: see theorems::largest_initial_error. Empty when the phase
-/// error is not certainly below half a turn.
+/// |e_0| for the largest assumed errors: see theorems::largest_initial_error. Empty when the phase error is
+/// not certainly below half a turn.
 std::string initial_error_term(const Assumptions& assume) {
   if (!rigor::certainly_less(assume.initial_phase_error.value, Interval(3.0))) {
     return "";

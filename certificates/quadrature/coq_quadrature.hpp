@@ -1,5 +1,5 @@
-// What Coq can check of a certificate: the constants and refutations of Theorem 2.9, and the guarantee of the
-// tracker without a leak.
+// The parts of a certificate that Coq can check: the constants and refutations of Theorem 2.9, and the
+// guarantee of the tracker without a leak.
 #pragma once
 
 #include "certificates/document/certificate.hpp"
@@ -7,7 +7,7 @@
 
 namespace veritrack::certificates::coq {
 
-/// certificate.v, and what it proves. Needs the upward mode.
+/// certificate.v, and its statements. Needs the upward mode.
 [[nodiscard]] FormalProofs quadrature_proofs(const Certificate& certificate);
 
 }  // namespace veritrack::certificates::coq

@@ -1,4 +1,4 @@
-// What contraction proves of the quadrature tracker.
+// The proofs by contraction for the quadrature tracker.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace veritrack::certificates {
 
-/// The values of [design] at amplitude 1: as intervals that hold the decimals (needs the upward mode), and as
-/// the doubles nearest to them (needs round-to-nearest).
+/// The values of [design] at amplitude 1: as intervals that contain the decimals (needs the upward mode), and
+/// as the doubles nearest to them (needs round-to-nearest).
 [[nodiscard]] trackers::ToneModel<rigor::Interval> enclosed_at_unit_amplitude(
     const QuadratureEkfTables& tables);
 [[nodiscard]] trackers::ToneModel<double> nearest_at_unit_amplitude(const QuadratureEkfTables& tables);
 
-/// What is asked of contraction for the quadrature tracker, at amplitude 1. Needs the upward mode.
+/// The question for contraction about the quadrature tracker, at amplitude 1. Needs the upward mode.
 [[nodiscard]] sets::ContractionQuestion contraction_question(const Design& design);
 
-/// For which P(0|0) the sentences are true: "and with P(0|0) from ...". After add_contraction.
+/// The P(0|0) for which the sentences are true: "and with P(0|0) from ...". Call after add_contraction.
 [[nodiscard]] std::string start_covariance_words(const Certificate& certificate);
 
 /// Adds the derivation "contraction" and its certified sets.

@@ -28,7 +28,7 @@ using rigor::Verdict;
 
 constexpr int kShownDigits = 3;
 
-/// Why nothing is certified.
+/// The reason why nothing is certified.
 std::string open_condition(const theorems::Derivation& derivation) {
   for (const theorems::Condition& condition : derivation.conditions) {
     if (condition.verdict != Verdict::proved) {

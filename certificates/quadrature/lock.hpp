@@ -1,4 +1,4 @@
-// Gaussian noise: with which probability the quadrature tracker loses lock.
+// Gaussian noise: the probability that the quadrature tracker loses lock.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace veritrack::certificates {
 
-/// What is asked under the assumptions of a design, at amplitude 1; its noise must be Gaussian. Needs the
+/// The question under the assumptions of a design, at amplitude 1; its noise must be Gaussian. Needs the
 /// upward mode.
 [[nodiscard]] quadrature::LockQuestion lock_question(const QuadratureEkfTables& tables);
 
@@ -18,15 +18,15 @@ namespace veritrack::certificates {
 /// guarantee in one sentence. The design's noise must be Gaussian. Needs the upward mode.
 void add_lock(Certificate& certificate);
 
-/// The guarantee in one sentence: what a derivation like "lock" proves on these terms, or why nothing; with
-/// the root mean square in lock when there is one.
+/// The guarantee in one sentence: the statement that a derivation like "lock" proves on these terms, or the
+/// reason why it proves none; with the root mean square in lock when there is one.
 [[nodiscard]] Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms,
                                    const theorems::Quantity* rms = nullptr);
 
 /// Its part of certificate.md.
 [[nodiscard]] std::string lock_section(const Certificate& certificate);
 
-/// What such a certificate covers and what it does not.
+/// The coverage of such a certificate and its limits.
 [[nodiscard]] std::string lock_coverage_section();
 
 }  // namespace veritrack::certificates

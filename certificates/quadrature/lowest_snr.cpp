@@ -38,7 +38,8 @@ trackers::ToneModel<double> nearest_design_of(const QuadratureEkfTables& tables)
   return nearest_at_unit_amplitude(tables);
 }
 
-/// Where the noise bound of the contraction certificate is exceeded so seldom: N exp(-V^2/(2 sigma^2)) = p.
+/// The ratio at which the noise bound of the contraction certificate is exceeded rarely enough: N exp(-V^2/(2
+/// sigma^2)) = p.
 std::optional<double> union_bound_decibels(const quadrature::LockQuestion& question) {
   sets::ContractionQuestion bounded;
   bounded.design = question.design;

@@ -1,5 +1,5 @@
-// The lowest signal-to-noise ratio at which the quadrature tracker is certified to keep its lock, and what a
-// simulation and the bounded-noise certificate say beside it.
+// The lowest signal-to-noise ratio at which the quadrature tracker is certified to keep its lock, beside the
+// results of a simulation and of the bounded-noise certificate.
 #pragma once
 
 #include <optional>

@@ -7,11 +7,11 @@
 
 namespace veritrack::certificates {
 
-/// A short section a result: its conditions with their verdicts, and what a reader needs to know. Empty when
-/// there are none.
+/// A short section for each result: its conditions with their verdicts, and remarks for the reader. Empty
+/// when there are none.
 [[nodiscard]] std::string other_results_section(const Certificate& certificate);
 
-/// Their constants, a table a result. Empty when there are none.
+/// Their constants, one table for each result. Empty when there are none.
 [[nodiscard]] std::string other_constants_section(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

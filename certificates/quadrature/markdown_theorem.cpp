@@ -51,8 +51,8 @@ void add_variant(std::string& cell, const std::string& text, const std::string& 
   }
 }
 
-/// About how much room there is: as a share of the bound, or in multiples of it where the value is far beyond
-/// a lower bound.
+/// Approximately the room: as a share of the bound, or in multiples of it where the value is far beyond a
+/// lower bound.
 std::string margin_text(const theorems::AuditPoint& point) {
   const double relative = rigor::midpoint(point.relative_margin);
   if (std::isfinite(relative)) {

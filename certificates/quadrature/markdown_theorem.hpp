@@ -16,7 +16,7 @@ namespace veritrack::certificates {
 /// Every constant: symbol, formula, enclosure in each reading, source.
 [[nodiscard]] std::string constants_section(const Certificate& certificate);
 
-/// What the constants bound, tried along the simulated trajectory.
+/// The quantities that the constants bound, evaluated along the simulated trajectory.
 [[nodiscard]] std::string audit_section(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

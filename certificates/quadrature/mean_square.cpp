@@ -55,7 +55,7 @@ std::optional<double> linear_rms(const trackers::ToneModel<double>& design, doub
   return largest;
 }
 
-/// What the linearised filter and the best possible one would have.
+/// The values of the linearised filter and of the best possible one.
 void add_linear(const quadrature::LockQuestion& question, const std::vector<quadrature::LockSet>& sets,
                 theorems::Derivation& derivation) {
   const rigor::NearestRounding nearest;
@@ -84,7 +84,7 @@ void add_linear(const quadrature::LockQuestion& question, const std::vector<quad
   }
 }
 
-/// Whether the start or the noise decides the bound, and what it would be without the start.
+/// Whether the start or the noise decides the bound, and the bound without the start.
 std::string shares_of(const theorems::Derivation& derivation) {
   const theorems::Quantity* rms = theorems::applicable_quantity(derivation, kRms);
   const theorems::Quantity* rest = theorems::applicable_quantity(derivation, quadrature::kRmsWithoutStart);

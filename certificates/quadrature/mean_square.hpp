@@ -9,7 +9,7 @@
 
 namespace veritrack::certificates {
 
-/// Adds the derivation "mean-square", with what the linearised filter does beside it, and its evidence: the
+/// Adds the derivation "mean-square", with the linearised filter's value beside it, and its evidence: the
 /// answer must have one. Call after the derivation "lock" was added. Needs the upward mode.
 void add_mean_square(Certificate& certificate, const quadrature::LockQuestion& question,
                      quadrature::LockAnswer answer);

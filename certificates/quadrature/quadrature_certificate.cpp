@@ -59,7 +59,7 @@ theorems::Theorem29Input theorem_input(const QuadratureEkfTables& tables) {
   return input;
 }
 
-/// What the other results are evaluated for, also at unit amplitude.
+/// The design for which the other results are evaluated, also at unit amplitude.
 theorems::TrackerInput tracker_input(const QuadratureEkfTables& tables,
                                      const theorems::Theorem29Input& theorem) {
   const Assumptions& assume = tables.assume;
@@ -72,7 +72,7 @@ theorems::TrackerInput tracker_input(const QuadratureEkfTables& tables,
   return input;
 }
 
-/// "Theorem 2.9 applies", one claim a reading: the conditions, not what the theorem concludes from them.
+/// "Theorem 2.9 applies", one claim for each reading: the conditions, not the theorem's conclusion.
 Claim applicability_claim(const theorems::Derivation& derivation) {
   Claim claim;
   claim.id = derivation.id + "/conditions";
@@ -130,7 +130,7 @@ void quadrature_published_results(Certificate& certificate) {
 void certify_quadrature(Certificate& certificate, const CertifyProgress& progress) {
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   if (tables.assume.gaussian) {
-    // The published results, too, are about noise with a bound.
+    // The published results are also about noise with a bound.
     certificate.particulars = QuadratureParticulars{};
     certificate.simulation = simulate_quadrature(certificate.design);
     add_lock(certificate);

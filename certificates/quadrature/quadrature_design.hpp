@@ -32,7 +32,7 @@ struct QuadratureEkfTables {
   Theorem29Parameters theorem_2_9;
 };
 
-/// Of a design of this tracker. Throws std::logic_error for another.
+/// The tables of a design of this tracker. Throws std::logic_error for another.
 [[nodiscard]] inline const QuadratureEkfTables& quadrature_tables(const Design& design) {
   return tables_of<QuadratureEkfTables>(design);
 }

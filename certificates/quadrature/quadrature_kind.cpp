@@ -1,4 +1,5 @@
-// The quadrature tracker as a kind of tracker: its record, and the parts of its document that no other has.
+// The quadrature tracker as a kind of tracker: its record, and the parts of its document that no other
+// tracker has.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What only a certificate of the quadrature tracker has.
+// The data that only a certificate of the quadrature tracker has.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ struct FollowedStarts {
   std::vector<double> frequency_tube;  ///< see quadrature::StartCapture; empty unless PROVED
 };
 
-/// What one result gives for the design, side by side with the others.
+/// The numbers of one result for the design, side by side with the others.
 struct ComparedResult {
   std::string result;                     ///< the derivation's id, or "simulation"
   std::optional<rigor::Verdict> verdict;  ///< of its conditions; none for a simulation
@@ -53,15 +53,15 @@ struct QuadratureParticulars {
   std::vector<NamedSet> certified_sets;
   std::vector<quadrature::LockSet> lock_sets;                 ///< for Gaussian noise
   std::vector<quadrature::LockMeanSquare> lock_mean_squares;  ///< one for each of these sets, or none
-  std::optional<quadrature::LockSet> lowest_snr_set;          ///< for as much of it as could be proved
+  std::optional<quadrature::LockSet> lowest_snr_set;          ///< for the most of it that could be proved
   std::optional<quadrature::LockLoss> lock_loss;              ///< simulated
   std::optional<double> union_bound_snr;                      ///< dB; not in the evidence, so not proved
-  std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
+  std::optional<FollowedStarts> followed_starts;  ///< none when the certified set contains the assumed starts
   std::vector<AuditedDerivation> audits;
   std::vector<ComparedResult> comparison;
 };
 
-/// Of a certificate of this tracker. Throws std::bad_any_cast for another.
+/// The data of a certificate of this tracker. Throws std::bad_any_cast for another.
 [[nodiscard]] inline const QuadratureParticulars& quadrature_particulars(const Certificate& certificate) {
   return std::any_cast<const QuadratureParticulars&>(certificate.particulars);
 }

@@ -1,4 +1,4 @@
-// The quadrature tracker at work on samples.
+// The quadrature tracker run on samples.
 #pragma once
 
 #include "certificates/design/design.hpp"

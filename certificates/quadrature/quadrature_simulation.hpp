@@ -19,13 +19,13 @@ struct SteadyState {
   bool settled = false;        ///< whether the filter came to rest within the steps that were tried
 };
 
-/// Where the noise-free tracker's covariance settles at a constant frequency (rad/sample), by iteration in
-/// double: a floating-point proposal, no proof. When the tracker does not settle, the covariance after the
-/// last step of the iteration with the estimation error held at zero.
+/// The covariance at which the noise-free tracker settles at a constant frequency (rad/sample), by iteration
+/// in double: a floating-point proposal, not a proof. When the tracker does not settle, the covariance after
+/// the last step of the iteration with the estimation error held at zero.
 [[nodiscard]] SteadyState find_steady_state(const Design& design, double frequency);
 
 /// P(0|0) of a run that starts at that frequency (rad/sample), in the frame of the estimated phase: as the
-/// design gives it (of a range, its end), or the filter's steady state. Needs round-to-nearest.
+/// design gives it (for a range, its end), or the filter's steady state. Needs round-to-nearest.
 [[nodiscard]] SteadyState run_start_covariance(const Design& design, double frequency);
 
 /// The covariance in a frame that is turned by the angle, rad.

@@ -67,7 +67,7 @@ class LockEstimate {
       found.lowest_snr = lowest_snr(question, at_assumed->margin);
     }
     if (needed.contains(Objective::rms) && at_assumed->margin > 0.0) {
-      // As much as is added before a proof is tried (mean_square_certificate.cpp).
+      // The amount that is added before a proof is tried (mean_square_certificate.cpp).
       constexpr double kRoom = 1.08;
       if (const auto form = quadrature::propose_mean_square(quadrature::proposal_request(question).design,
                                                             at_assumed->set)) {
@@ -87,14 +87,14 @@ class LockEstimate {
     std::optional<quadrature::LockShape>& near = leaks ? near_with_leak_ : near_;
     request.near = near;
     auto found = quadrature::propose_lock_set(request);
-    // The bias grows with the frequency: where one set does not do for the band, its upper half decides.
+    // The bias grows with the frequency: where one set is not enough for the band, its upper half decides.
     constexpr int kMostHalvings = 3;
     for (int k = 0; leaks && k < kMostHalvings && found && !(found->margin >= kEnoughMargin); ++k) {
       request.lowest_frequency = 0.5 * (request.lowest_frequency + request.highest_frequency);
       found = quadrature::propose_lock_set(request);
     }
     if (found && !quadrature::lock_rounding(asked.design, asked.signal, found->set, asked.samples).has_room) {
-      found->margin = -1.0;  // no proof either
+      found->margin = -1.0;  // not a proof either
     }
     constexpr double kGood = 0.02;
     if (found && found->margin > kGood) {
@@ -103,7 +103,7 @@ class LockEstimate {
     return found;
   }
 
-  /// By how much the margin changes with the ratio differs little between designs: followed until it is
+  /// The change of the margin with the ratio differs little between designs: followed until it is
   /// `kEnoughMargin`.
   double lowest_snr(const quadrature::LockQuestion& question, double margin) {
     constexpr double kMarginPerDecibel = 0.1;
@@ -122,7 +122,7 @@ class LockEstimate {
       const auto found = proposed(question, std::sqrt(0.5 * std::pow(10.0, -0.1 * decibels)));
       margin = found ? found->margin : -1.0;
     }
-    // What failed at the last ratio that was looked at is as bad as that, and a little more.
+    // A failure at the last ratio examined counts as that ratio, and a little more.
     return decibels + std::clamp((kEnoughMargin - margin) / kMarginPerDecibel, -kLongest, kLongest);
   }
 

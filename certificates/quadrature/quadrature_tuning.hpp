@@ -8,11 +8,11 @@
 
 namespace veritrack::certificates {
 
-/// Of what `tune_quadrature` makes the best: all of certificates/tuning/objective.hpp.
+/// The objectives of `tune_quadrature`: all of certificates/tuning/objective.hpp.
 [[nodiscard]] std::span<const std::string_view> quadrature_tuning_objectives();
 
-/// For noise with a bound the search is over certified values; for Gaussian noise over what the inequality
-/// has left at sampled points of a proposed set, from which the ratio and the mean square that can be
+/// For noise with a bound the search is over certified values; for Gaussian noise over the slack of the
+/// inequality at sampled points of a proposed set, from which the ratio and the mean square that can be
 /// certified are estimated. Opens its own rounding scopes.
 [[nodiscard]] TuningResult tune_quadrature(const Design& design, const TuningRequest& request);
 

@@ -1,4 +1,4 @@
-// The proved region of attraction of a design: which starts the tracker is certain to recover from.
+// The proved region of attraction of a design: the starts from which the tracker is certain to recover.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace veritrack::certificates {
 
-/// The rectangle of starts that is looked at, around the exact start.
+/// The rectangle of starts that is examined, around the exact start.
 struct RegionRequest {
   double frequency_error = 1.0;  ///< up to, rad/sample
   double phase_error = 1.5;      ///< up to, rad
   bool with_noise = false;       ///< with the noise and slew of [assume]; without, the signal is free of both
-  search::Deadline deadline = {};  ///< what is open when it is over stays undecided
+  search::Deadline deadline = {};  ///< cells that are open when it is over stay undecided
 };
 
 /// The region, and the simulated basin beside it.
@@ -27,7 +27,7 @@ struct RegionOfAttraction {
   quadrature::BasinShares shares;    ///< of the simulated basin
 };
 
-/// What was found, or why nothing could be.
+/// The findings, or the reason why there are none.
 struct RegionResult {
   std::optional<RegionOfAttraction> found;
   std::string reason;  ///< one sentence when nothing was found
@@ -41,11 +41,11 @@ struct RegionResult {
 [[nodiscard]] RegionResult prove_region_of_attraction(const Design& design, const RegionRequest& request,
                                                       const CertifyProgress& progress = {});
 
-/// What is proved of the starts in the cells that are PROVED, as one sentence with all its hypotheses;
-/// without the verdict.
+/// The statement on the starts in the cells that are PROVED, as one sentence with all its hypotheses; without
+/// the verdict.
 [[nodiscard]] std::string region_statement(const Design& design, const RegionRequest& request);
 
-/// Tells `progress`, when there is one, and asks to stop when the deadline is over. Refers to both: must not
+/// Calls `progress`, when there is one, and asks to stop when the deadline is over. Refers to both: must not
 /// outlive them.
 [[nodiscard]] std::function<bool(const quadrature::RegionProgress&)> region_progress(
     const CertifyProgress& progress, const search::Deadline& deadline);

@@ -30,7 +30,7 @@ Multiples multiples_text(const StartCovarianceText& text, const std::optional<In
   constexpr int kDigits = 3;
   const std::string from = rigor::to_decimal(multiples->lower(), kDigits, rigor::Direction::up);
   const std::string to = rigor::to_decimal(multiples->upper(), kDigits, rigor::Direction::down);
-  // Where the multiples reach less than the digits show, the least margin is what is said.
+  // Where the multiples reach less than the digits show, the smallest margin is printed.
   return {multiples->lower() < 0.99 ? from : "0.999999", multiples->upper() > 1.01 ? to : "1.000001"};
 }
 

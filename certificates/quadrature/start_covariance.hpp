@@ -28,7 +28,7 @@ struct StartCovarianceText {
 /// The same at amplitude 1, with the multiples that every statement is to cover. Needs the upward mode.
 [[nodiscard]] sets::StartCovariance start_covariance(const QuadratureEkfTables& tables);
 
-/// "and with P(0|0) from 0.5 M to 2 M, M = ...": the multiples rounded inward, or as the design asks.
+/// "and with P(0|0) from 0.5 M to 2 M, M = ...": the multiples rounded inward, or as in the design.
 [[nodiscard]] std::string covariance_words(const StartCovarianceText& text,
                                            const std::optional<rigor::Interval>& multiples);
 

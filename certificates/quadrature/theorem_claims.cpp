@@ -30,7 +30,7 @@ struct Voices {
   std::string text, readings;
 };
 
-/// All that is said of one place.
+/// All statements on one place.
 struct Row {
   std::string name;
   std::vector<Voices> sentences, verdicts, witnesses;

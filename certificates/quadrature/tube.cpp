@@ -24,7 +24,7 @@ using Input = trackers::PolarInput<double>;
 constexpr std::size_t kShortest = 30;
 constexpr std::size_t kLongest = 300;
 
-/// The tracker, its signal, and what may be done to it.
+/// The tracker, its signal, and the admissible disturbances.
 struct Loop {
   trackers::ToneModel<double> design;
   double noise = 0.0;
@@ -61,7 +61,7 @@ State state_of(const rigor::Vector<3>& error, const rigor::Matrix<3>& covariance
   return {{error[0], error[1], error[2]}, trackers::PolarCovariance<double>::from_matrix(covariance)};
 }
 
-/// Where |T e| = R and one of the errors is as large as it can be, with the covariance at either end.
+/// Starts where |T e| = R and one of the errors is as large as possible, with the covariance at either end.
 std::vector<State> rim_of_set(const CertifiedSet& set) {
   const rigor::Matrix<3> inverse = set.metric.inverse();
   std::vector<State> starts;

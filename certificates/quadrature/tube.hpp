@@ -1,4 +1,4 @@
-// Simulated runs beside the certified bound of every sample: what the figure of the certificate shows.
+// Simulated runs beside the certified bound of every sample, for the figure of the certificate.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,13 @@ struct FrequencyErrorBounds {
   std::vector<double> bound;  ///< certified, for every such start and all noise and slew assumed
   /// The same for the assumed starts, where `bound` is about all of the set; as long, or empty.
   std::vector<double> bound_of_assumed_starts;
-  /// Of the tracker in double precision, from the boundary of the starts, without disturbances and with noise
-  /// and slew chosen at each sample to push the frequency error out. As long as the bound. They prove
+  /// Runs of the tracker in double precision, from the boundary of the starts, without disturbances and with
+  /// noise and slew chosen at each sample to push the frequency error out. As long as the bound. They prove
   /// nothing.
   std::vector<std::vector<double>> runs;
 };
 
-/// None when no set is certified or no bound is proved. Opens its own rounding scopes.
+/// Empty when no set is certified or no bound is proved. Opens its own rounding scopes.
 [[nodiscard]] std::optional<FrequencyErrorBounds> certified_tube(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

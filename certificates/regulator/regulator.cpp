@@ -48,7 +48,7 @@ regulator::RegulatorQuestion question_of(const RegulatorTables& tables, const Fr
   return question;
 }
 
-/// Everything up to what is claimed: the tracker's guarantee with its hypotheses, then the regulator's.
+/// Everything before the claim: the tracker's guarantee with its hypotheses, then the regulator's.
 std::string hypotheses_of(const RegulatorTables& tables, const FrequencyPromise& promise) {
   const bool noisy = !(promise.noise.value == Interval(0.0));
   return fmt::format(
@@ -165,7 +165,7 @@ class RegulatorClaims {
     add(claim);
   }
 
-  /// What is proved of output and input, with all numbers.
+  /// The proved bounds on output and input, with all numbers.
   void add_guarantee() {
     Claim claim;
     claim.id = "regulator/guarantee";
@@ -209,7 +209,7 @@ class RegulatorClaims {
     certificate_->claims.push_back(std::move(claim));
   }
 
-  /// What the tracker's own [require] asks.
+  /// The requirements of the tracker's own [require].
   void add_tracker() {
     const Certificate& tracker = regulator_particulars(*certificate_).tracker;
     if (!tracker.verdict) {

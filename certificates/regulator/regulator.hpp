@@ -1,4 +1,4 @@
-// What is certified of a regulator that runs on a frequency tracker.
+// The certificate of a regulator that runs on a frequency tracker.
 #pragma once
 
 #include "certificates/document/certificate.hpp"
@@ -8,13 +8,13 @@
 
 namespace veritrack::certificates {
 
-/// What only this kind has.
+/// The data that only this kind has.
 struct RegulatorParticulars {
   Certificate tracker;       ///< of the frequency tracker, as it would be alone
-  FrequencyPromise promise;  ///< what it proves of the frequency error
+  FrequencyPromise promise;  ///< its bounds on the frequency error
 };
 
-/// Of a certificate of this kind. Throws std::bad_any_cast for another.
+/// The data of a certificate of this kind. Throws std::bad_any_cast for another.
 [[nodiscard]] const RegulatorParticulars& regulator_particulars(const Certificate& certificate);
 
 /// Certifies the frequency tracker, adds the derivation "regulator", the claims and their verdict. Needs the

@@ -45,7 +45,7 @@ struct RegulatorTables {
 /// The largest order of a plant.
 inline constexpr int kMostPlantOrder = 8;
 
-/// Of a design of this tracker. Throws std::logic_error for another.
+/// The tables of a design of this tracker. Throws std::logic_error for another.
 [[nodiscard]] inline const RegulatorTables& regulator_tables(const Design& design) {
   return tables_of<RegulatorTables>(design);
 }

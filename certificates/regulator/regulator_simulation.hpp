@@ -16,7 +16,7 @@ struct ClosedLoopRun {
 
 /// Runs on three disturbances that the design assumes, with noise up to the assumed bound, the tracker in
 /// lock at the start: constant frequencies, the lowest, the middle and the highest of the band; with a slew,
-/// three sweeps and walks through it. None where the tracker promises nothing. Holds its own rounding mode.
+/// three sweeps and walks through it. Empty where the tracker promises nothing. Holds its own rounding mode.
 [[nodiscard]] std::vector<ClosedLoopRun> simulate_closed_loop(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -65,7 +65,7 @@ void bounded_noise(const TomlValue& value, Assumptions& assume) {
   assume.noise = bound_on_noise(value);
 }
 
-/// The same where Gaussian noise is asked for now and then, and nothing is certified with it.
+/// The same where users sometimes ask for Gaussian noise, and nothing is certified with it.
 void noise_in_a_disc(const TomlValue& value, Assumptions& assume) {
   if (value.is_table() && (value.fields({"snr_db"}) || value.fields({"deviation"}))) {
     value.refuse("Gaussian, with which nothing is certified for this tracker");
@@ -85,7 +85,7 @@ void noise(const TomlValue& value, Assumptions& assume) {
   read_noise(value, assume.noise, assume.gaussian);
 }
 
-/// Symmetry is that of the intervals: they hold the symmetric matrices that a certificate is about.
+/// Symmetry is that of the intervals: they contain the symmetric matrices that a certificate is about.
 bool is_symmetric(const CovarianceArray& covariance) {
   for (std::size_t row = 0; row < covariance.size(); ++row) {
     for (std::size_t column = 0; column < row; ++column) {
@@ -144,7 +144,7 @@ void one_covariance(const TomlValue& value, Assumptions& assume) {
   }
 }
 
-/// From one multiple of the printed matrix to another, of which there is certainly one.
+/// From one multiple of the printed matrix to another; the range is certainly not empty.
 void covariance_multiples(const TomlValue& value, const TomlValue& from, const TomlValue& to,
                           Assumptions& assume) {
   const Number least = from.real(positive);
@@ -216,7 +216,7 @@ constexpr std::array kAssumeKeys{
         initial_covariance, defaults_to("\"steady-state\""), kWider},
 };
 
-/// kAssumeKeys with noise that may be Gaussian, and what goes with that.
+/// kAssumeKeys with noise that may be Gaussian, and the keys that go with that.
 constexpr std::array<Key<Assume>, kAssumeKeys.size() + 2> with_gaussian_noise() {
   std::array<Key<Assume>, kAssumeKeys.size() + 2> keys{};
   std::copy(kAssumeKeys.begin(), kAssumeKeys.end(), keys.begin());
@@ -234,7 +234,7 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size() + 2> with_gaussian_noise() 
 }
 constexpr std::array kAssumeKeysWithGaussianNoise = with_gaussian_noise();
 
-/// kAssumeKeys with a frequency that may be one number, without ranges of covariances, and with a word on
+/// kAssumeKeys with a frequency that may be one number, without ranges of covariances, and with a remark on
 /// Gaussian noise.
 constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
   std::array<Key<Assume>, kAssumeKeys.size()> keys = kAssumeKeys;

@@ -10,8 +10,8 @@
 
 namespace veritrack::certificates {
 
-/// What P(0|0) is, in the frame of the estimated phase: the filter's steady state, or a symmetric positive
-/// definite matrix, row by row.
+/// P(0|0) in the frame of the estimated phase: the filter's steady state, or a symmetric positive definite
+/// matrix, row by row.
 using CovarianceArray = std::array<std::array<Number, 3>, 3>;
 
 /// Errors of the samples without a bound: independent from sample to sample and from channel to channel,
@@ -30,7 +30,8 @@ struct Assumptions {
   Number noise;
   std::optional<GaussianNoise> gaussian;
   std::optional<Number> frequency_walk;  ///< deviation of Gaussian steps of the frequency, rad/sample
-  std::optional<Number> samples;         ///< for how many a probability is asked; given with Gaussian noise
+  std::optional<Number> samples;         ///< the number for which a probability is asked; given with Gaussian
+                                         ///< noise
   Number slew;                           ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
   Number initial_frequency_error;        ///< rad/sample
   Number initial_phase_error;            ///< rad
@@ -42,7 +43,7 @@ struct Assumptions {
   std::optional<std::array<Number, 2>> covariance_multiples;
 };
 
-/// [require]: what CI must find PROVED.
+/// [require]: the claims that CI must find PROVED.
 struct Requirements {
   std::optional<Number> frequency_error_below;            ///< rad/sample, for ever
   std::optional<Number> settles_within;                   ///< samples, after which the frequency error stays

@@ -31,7 +31,7 @@ sets::ContractionQuestion contraction_question(const trackers::ToneModel<Interva
   sets::ContractionQuestion question;
   question.design = model;
   question.amplitude = amplitude;
-  // A little more than is assumed, so that another arithmetic finds it covered, too.
+  // A little more than is assumed, so that a checker with another arithmetic also finds it covered.
   const Interval margin = Interval::from_bounds(1.0, 1.0 + 0x1p-48);
   question.noise = assume.noise.value / amplitude * margin;
   question.slew = assume.slew.value * margin;

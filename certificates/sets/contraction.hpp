@@ -1,4 +1,4 @@
-// What is asked of contraction for the assumptions of a design, and what its claims rest on.
+// The question for contraction under the assumptions of a design, and the basis of its claims.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,13 @@ namespace veritrack::certificates {
 [[nodiscard]] rigor::IntervalMatrix<3> covariance_at_unit_amplitude(const CovarianceArray& covariance,
                                                                     const Number& amplitude);
 
-/// What is asked for a model at amplitude 1 under what is assumed, with the start covariance that is given.
-/// Needs the upward mode.
+/// The question for a model at amplitude 1 under the assumptions, with the given start covariance. Needs the
+/// upward mode.
 [[nodiscard]] sets::ContractionQuestion contraction_question(
     const trackers::ToneModel<rigor::Interval>& model, const Assumptions& assume,
     const Requirements& require);
 
-/// The proved bound on |frequency error|, rad/sample, at every sample from the start on; none when the
+/// The proved bound on |frequency error|, rad/sample, at every sample from the start on; empty when the
 /// contraction certificate does not cover the assumed start, noise and slew.
 [[nodiscard]] std::optional<rigor::Interval> proved_frequency_bound(const Certificate& certificate);
 

@@ -1,4 +1,4 @@
-// What a count over independent trials says of a probability. Nothing here is proved.
+// Estimates of a probability from a count over independent trials. Nothing here is proved.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ struct CountedShare {
   double low = 0.0, high = 1.0;
 };
 
-/// 0 <= count <= trials, trials at least 1; with round-to-nearest. To about ten digits, directed nowhere.
+/// 0 <= count <= trials, trials at least 1; with round-to-nearest. To about ten digits, without directed
+/// rounding.
 [[nodiscard]] CountedShare counted_share(std::int64_t count, std::int64_t trials);
 
 }  // namespace veritrack::certificates

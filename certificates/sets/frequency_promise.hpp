@@ -1,5 +1,5 @@
-// What a certificate proves of the frequency error for every tone that its design assumes: what a system that
-// runs on the estimate may rely on.
+// The bounds that a certificate proves on the frequency error for every tone that its design assumes: a
+// system that runs on the estimate may rely on them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace veritrack::certificates {
 
 struct FrequencyPromise {
-  // What is assumed of the tone.
+  // The assumptions on the tone.
   Number amplitude;                 ///< constant, signal units
   std::array<Number, 2> frequency;  ///< [lowest, highest], rad/sample
   Number noise;                     ///< at most, signal units; empty where there is no bound
@@ -21,15 +21,15 @@ struct FrequencyPromise {
   bool two_channels = false;        ///< the noise is a vector in the plane
 
   std::string sentence;   ///< the guarantee with all hypotheses; empty when nothing is proved
-  std::string objection;  ///< why nothing is; empty otherwise
-  // Upper bounds on |frequency error|, rad/sample; none unless there is a sentence.
+  std::string objection;  ///< the reason why nothing is proved; empty otherwise
+  // Upper bounds on |frequency error|, rad/sample; empty unless there is a sentence.
   std::optional<rigor::Interval> for_ever;
   std::optional<double> settling_samples;  ///< from then on at most settled_error
   std::optional<rigor::Interval> settled_error;
   std::optional<rigor::Interval> ultimate;  ///< in the long run
 };
 
-/// Of an extended Kalman filter's certificate: its claim "ekf/guarantee". Needs the upward mode.
+/// The promise of an extended Kalman filter's certificate: its claim "ekf/guarantee". Needs the upward mode.
 [[nodiscard]] FrequencyPromise ekf_frequency_promise(const Certificate& certificate,
                                                      const Assumptions& assume, bool two_channels);
 

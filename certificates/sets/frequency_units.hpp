@@ -17,7 +17,7 @@ class FrequencyUnits {
 
   /// Whether there is a sample rate.
   [[nodiscard]] bool has_hertz() const { return sample_rate_->has_value(); }
-  /// rad/sample in Hz; needs a sample rate. Holds its own rounding mode, as all of these.
+  /// rad/sample in Hz; needs a sample rate. Holds its own rounding mode, as do all of these.
   [[nodiscard]] rigor::Interval in_hertz(const rigor::Interval& radians) const;
   /// In Hz with a sample rate, else unchanged; in doubles, for pictures.
   [[nodiscard]] double drawn(double radians) const;
@@ -36,12 +36,12 @@ class FrequencyUnits {
   [[nodiscard]] std::string slew(double radians, int digits = 4) const;
   [[nodiscard]] std::string slew(const rigor::Interval& radians, int digits = 4) const;
 
-  // The same of a decimal that stands in a sentence: the words are true of the decimal.
+  // The same for a decimal that stands in a sentence: the words are true of the decimal.
 
   [[nodiscard]] std::string at_most(const std::string& decimal) const;
   [[nodiscard]] std::string at_least(const std::string& decimal) const;
   [[nodiscard]] std::string slew(const std::string& decimal) const;
-  /// "-1.7e-6 and 9e-7 rad/sample (-0.0028 and 0.0015 Hz)": what lies between two decimals.
+  /// "-1.7e-6 and 9e-7 rad/sample (-0.0028 and 0.0015 Hz)": the values between two decimals.
   [[nodiscard]] std::string between(const std::string& low, const std::string& high) const;
 
   /// ", sampled at 8000 Hz," of a tone in a sentence; empty without a sample rate.
@@ -51,7 +51,7 @@ class FrequencyUnits {
   const std::optional<Number>* sample_rate_;
 };
 
-/// A frequency of the design file as sentences have it: "5 Hz" or "0.05 rad/sample".
+/// A frequency of the design file as written in sentences: "5 Hz" or "0.05 rad/sample".
 [[nodiscard]] std::string frequency_words(const Number& number);
 /// A slew likewise: "200 Hz per second" or "0.001 rad/sample per sample".
 [[nodiscard]] std::string slew_words(const Number& number);

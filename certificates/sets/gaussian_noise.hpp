@@ -1,4 +1,4 @@
-// Gaussian noise of a design, at a signal of amplitude 1, and how sentences name it.
+// Gaussian noise of a design, at a signal of amplitude 1, and its words in sentences.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@ namespace veritrack::certificates {
 [[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const GaussianNoise& noise,
                                                           const Number& amplitude);
 [[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const Assumptions& assume);
-/// The noise with this signal-to-noise ratio, a decimal in dB, as if a design said so. Throws what
+/// The noise with this signal-to-noise ratio, a decimal in dB, as if a design gave it. Throws what
 /// rigor::parse_decimal throws. Needs the upward mode.
 [[nodiscard]] GaussianNoise noise_of_snr(const std::string& decibels);
 /// The double nearest to it: for simulations. Needs round-to-nearest.
 [[nodiscard]] double nearest_deviation(const GaussianNoise& noise, const Number& amplitude);
 [[nodiscard]] double nearest_deviation(const Assumptions& assume);
 
-/// Whether `frequency_walk` is more than nothing.
+/// Whether `frequency_walk` is present and not zero.
 [[nodiscard]] bool frequency_walks(const Assumptions& assume);
 
-/// "within any 1e6 successive samples, however late"; for a frequency that walks, of the first ones.
+/// "within any 1e6 successive samples, however late"; for a frequency that walks, within the first ones.
 /// `samples` must be given.
 [[nodiscard]] std::string stretch_of_samples(const Assumptions& assume);
 

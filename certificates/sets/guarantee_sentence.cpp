@@ -30,7 +30,7 @@ const Claim* find_claim(const Certificate& certificate, const std::string& id) {
   return found == certificate.claims.end() ? nullptr : &*found;
 }
 
-/// Are the radii those of larger sets than the one that has the rate?
+/// Whether the radii are those of larger sets than the one with the rate.
 bool has_sets_for_the_radius(const Certificate& certificate) {
   const theorems::Derivation* derivation = find_derivation(certificate, "contraction");
   return derivation != nullptr &&
@@ -42,15 +42,15 @@ bool is_zero(const Number& number) {
   return number.value == Interval(0.0);
 }
 
-/// Is the error that it settles to below what it never exceeds, as sentences write the two? Else to name it
-/// says nothing.
+/// Whether the settled error is below the bound at every sample, as sentences write the two. Otherwise naming
+/// it adds nothing.
 bool settles_below(const sets::StartResult& starts, const Interval& bound, const FrequencyUnits& units) {
   const theorems::Quantity& settled = starts.settled_frequency_error;
   return starts.settling_samples.applies() && settled.applies() && settled.value.upper() < bound.upper() &&
          units.at_most(settled.value, kDigits) != units.at_most(bound, kDigits);
 }
 
-/// Why the bound is true, and its value in the long run.
+/// The reason why the bound is true, and its value in the long run.
 std::string ground(const sets::StartResult& starts) {
   const std::optional<theorems::Quantity>& captured = starts.capture_samples;
   std::string text = "All these starts lie in a certified invariant set.";
@@ -63,7 +63,7 @@ std::string ground(const sets::StartResult& starts) {
   return text;
 }
 
-/// Which hypothesis fails, by how much, and what would repair it.
+/// The hypothesis that fails, by how much, and a repair.
 std::string objection(const sets::StartResult& starts) {
   const theorems::Condition* refuted = starts.first_condition(Verdict::refuted);
   const theorems::Condition* failing = refuted != nullptr ? refuted : starts.first_open_condition();
@@ -156,7 +156,7 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
   claim.hypotheses = hypotheses(terms);
   claim.statement =
       claim.hypotheses + (required ? requirement->requirement : "the tracker keeps its lock for ever");
-  // Without a required bound it is the lock that is kept.
+  // Without a required bound the claim is that lock is kept.
   if (bound && (requirement == nullptr ? is_lock(*bound, terms) : requirement->verdict == Verdict::proved)) {
     claim.verdict = Verdict::proved;
     claim.statement += ": the frequency error never exceeds " + units.at_most(*bound, kDigits);

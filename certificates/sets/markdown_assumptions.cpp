@@ -19,7 +19,7 @@ namespace {
 
 using markdown::math;
 
-/// The unit of numbers as they are written, and what they are in the other one, rounded outward.
+/// The unit of numbers as they are written, and their values in the other one, rounded outward.
 std::string in_both_units(std::initializer_list<Number> numbers, const FrequencyUnits& units) {
   const bool in_hertz = numbers.begin()->in_hertz;
   if (!units.has_hertz()) {
@@ -65,7 +65,7 @@ std::string covariance_text(const Assumptions& assume, const std::string& found)
                                    : "that of the guarantee, next to or below the filter's steady state";
 }
 
-/// Of the frequency, along the run and over its second half; nothing without a run.
+/// The largest frequency errors along the run and over its second half; empty without a run.
 std::optional<std::pair<double, double>> largest_errors(const theorems::Trajectory& run) {
   if (run.empty()) {
     return std::nullopt;

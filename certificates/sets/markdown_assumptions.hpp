@@ -9,7 +9,7 @@
 
 namespace veritrack::certificates {
 
-/// What is assumed of the signal and the start. `covariance`: P(0|0) in words, where the design leaves it to
+/// The assumptions on the signal and the start. `covariance`: P(0|0) in words, where the design leaves it to
 /// the certificate.
 [[nodiscard]] std::string assumptions_section(const Assumptions& assume, const std::string& covariance = "");
 

@@ -1,4 +1,4 @@
-// The part of certificate.md that shows what this program itself proves of the design.
+// The part of certificate.md that shows this program's own proofs for the design.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace veritrack::certificates {
 
-/// Conditions, the certified set in engineering units, what it covers, and how starts beyond it were
+/// Conditions, the certified set in engineering units, its coverage, and the starts beyond it that were
 /// followed.
 [[nodiscard]] std::string contraction_section(const Certificate& certificate);
 

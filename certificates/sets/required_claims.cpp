@@ -14,7 +14,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-/// What keeps the contraction certificate from covering the assumptions, as a sentence.
+/// The reason why the contraction certificate does not cover the assumptions, as a sentence.
 std::string contraction_objection(const sets::StartResult& starts) {
   if (const theorems::Condition* open = starts.first_open_condition()) {
     return fmt::format("The contraction certificate does not cover this design and start ({}: {})", open->id,
@@ -90,8 +90,8 @@ Claim settling_claim(const sets::StartResult& starts, const GuaranteeTerms& term
 struct LeastSize {
   const char* claim;  ///< id
   const theorems::Quantity& certified;
-  std::string statement;           ///< of which {} is the number as written
-  const char* largest;             ///< what the quantity is, for the reason
+  std::string statement;           ///< with {} for the number as written
+  const char* largest;             ///< the words for the quantity, for the reason
   Interval scale;                  ///< from the quantity's unit to the requirement's
   bool under_assumptions = false;  ///< the assumed noise and slew are among the hypotheses
   const char* addition = "";       ///< to the sentence

@@ -8,7 +8,7 @@
 
 namespace veritrack::certificates {
 
-/// What [require] asks at `required`, undecided: in short, and with all hypotheses before it.
+/// The requirement of [require] at `required`, undecided: in short, and with all hypotheses before it.
 [[nodiscard]] Claim required_claim(const char* id, std::string requirement, const std::string& hypotheses,
                                    const Number& required);
 
@@ -16,7 +16,7 @@ namespace veritrack::certificates {
 /// verdict. Throws std::bad_optional_access when nothing was certified by contraction. Needs the upward mode.
 void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms);
 
-/// Sets the certificate's verdict: all required claims together, none when nothing is required.
+/// Sets the certificate's verdict on all required claims together; empty when nothing is required.
 void conclude_requirements(Certificate& certificate);
 
 }  // namespace veritrack::certificates

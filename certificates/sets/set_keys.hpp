@@ -14,13 +14,13 @@ namespace veritrack::certificates {
 [[nodiscard]] std::span<const Key<Assumptions>> assume_keys();
 /// [assume] of a tracker whose frequency may also be a single number; its noise has a bound.
 [[nodiscard]] std::span<const Key<Assumptions>> assume_keys_with_one_frequency();
-/// [require], with and without what is asked of Gaussian noise.
+/// [require], with and without the keys for Gaussian noise.
 [[nodiscard]] std::span<const Key<Requirements>> require_keys();
 [[nodiscard]] std::span<const Key<Requirements>> require_keys_of_bounded_noise();
 /// [simulate]
 [[nodiscard]] std::span<const Key<SimulationSettings>> simulate_keys();
 
-/// What `noise` may be when it may be Gaussian, and its reader: a bound, or the noise.
+/// The allowed values of `noise` when it may be Gaussian, and its reader: a bound, or the noise.
 inline constexpr std::string_view kNoiseThatMayBeGaussian =
     "a number, 0 or more, or { bound = that number }, or Gaussian noise: { snr_db = a number from -200 to "
     "200 } or { deviation "
@@ -30,13 +30,13 @@ void read_noise(const TomlValue& value, Number& bound, std::optional<GaussianNoi
 inline constexpr std::array kFormsOfNoise{MemberContract{"snr_db", Stronger::smaller},
                                           MemberContract{"deviation", Stronger::larger}};
 inline constexpr KeyContract kContractOfNoise{Stronger::larger, Measure::plain, kFormsOfNoise};
-/// For how many samples a probability is asked: from 1 to 1e15.
+/// The number of samples for which a probability is asked: from 1 to 1e15.
 inline constexpr std::string_view kSamplesOfProbability = "a number from 1 to 1e15";
 [[nodiscard]] bool is_number_of_samples(const rigor::Interval& x);
 
-/// What no single key of [require] can say: that settling takes two.
+/// A rule that no single key of [require] can check: settling needs two keys.
 [[nodiscard]] std::optional<TableObjection> objection_to(const Requirements& require);
-/// Nor that what goes with Gaussian noise goes with a bound.
+/// Another such rule: keys for Gaussian noise do not go with a bound.
 [[nodiscard]] std::optional<TableObjection> objection_to(const Assumptions& assume,
                                                          const Requirements& require);
 

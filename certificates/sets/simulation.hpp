@@ -14,7 +14,7 @@ namespace veritrack::certificates {
 
 struct Simulation {
   theorems::Trajectory trajectory;  ///< in the units of the design file; record 0 is the start
-  std::vector<std::string> notes;   ///< sentences: what the reader of the run must know of it
+  std::vector<std::string> notes;   ///< sentences: remarks for the reader of the run
 };
 
 /// The test signal that [simulate] names, within [assume]. Needs round-to-nearest.

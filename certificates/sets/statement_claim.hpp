@@ -6,7 +6,7 @@
 
 namespace veritrack::certificates {
 
-/// A statement about a theorem as a claim that nothing requires.
+/// A statement about a theorem as a claim that is not required.
 [[nodiscard]] Claim to_claim(const theorems::Statement& statement);
 
 }  // namespace veritrack::certificates

@@ -10,7 +10,7 @@ namespace veritrack::certificates::coq {
 
 namespace {
 
-/// The poles of the filter that the design's mean gain gives, when they were shown to be stable.
+/// The poles of the filter with the design's mean gain, when they were shown to be stable.
 void prove_poles(Proofs& proofs, const theorems::Derivation& filter) {
   proofs.write("\n(* The gain and the frequency at which the design's filter is frozen. *)\n");
   for (const char* name : {"gain_1", "gain_2", "zero_angle"}) {

@@ -1,4 +1,4 @@
-// What Coq can check of a certificate: Bittanti and Savaresi's Proposition 1.
+// The part of a certificate that Coq can check: Bittanti and Savaresi's Proposition 1.
 #pragma once
 
 #include "certificates/document/certificate.hpp"
@@ -6,7 +6,7 @@
 
 namespace veritrack::certificates::coq {
 
-/// certificate.v, and what it proves. Needs the upward mode.
+/// certificate.v, and its statements. Needs the upward mode.
 [[nodiscard]] FormalProofs proposition_1_proofs(const Certificate& certificate);
 
 }  // namespace veritrack::certificates::coq

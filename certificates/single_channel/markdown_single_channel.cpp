@@ -93,7 +93,7 @@ std::string process_noise_words(const SingleChannelDesignTable& design) {
 
 std::string single_channel_remarks(const Certificate& certificate) {
   std::string text;
-  if (!biases(certificate).empty()) {  // where only verdicts are asked for, no bias is looked for
+  if (!biases(certificate).empty()) {  // where only verdicts are requested, no bias is searched for
     text = "- " + bias_sentence(certificate, middle_bias(certificate)) + "\n";
   }
   for (const Claim& claim : certificate.claims) {

@@ -7,7 +7,7 @@
 
 namespace veritrack::certificates {
 
-/// The bias in a sentence, and how many statements of the paper are true.
+/// The bias in a sentence, and the number of the paper's statements that are true.
 [[nodiscard]] std::string single_channel_remarks(const Certificate& certificate);
 
 /// The sets of the same filter as a recursion, or why there are none.
@@ -21,10 +21,10 @@ namespace veritrack::certificates {
 /// The frozen filter: gains, poles, Jury conditions.
 [[nodiscard]] std::string transfer_function_section(const Certificate& certificate);
 
-/// What was found of the paper's propositions: every claim that nothing requires.
+/// The findings on the paper's propositions: every claim that is not required.
 [[nodiscard]] std::string proposition_section(const Certificate& certificate);
 
-/// What the certificate covers.
+/// The coverage of the certificate.
 [[nodiscard]] std::string single_channel_coverage_section();
 
 }  // namespace veritrack::certificates

@@ -20,7 +20,7 @@ using rigor::Verdict;
 constexpr std::string_view kOfModels = "model/";
 constexpr std::string_view kOfRecursion = "recursion/";
 
-/// A claim of this tracker that the recursion's of the same meaning can decide.
+/// A claim of this tracker that the recursion's claim of the same meaning can decide.
 struct SameClaim {
   std::string_view here, there;
 };
@@ -54,7 +54,7 @@ std::array<std::string, 3> variances(const SingleChannelDesignTable& design) {
   return {design.variances.value()[0].text, design.variances.value()[1].text, r};
 }
 
-/// Why nothing is looked for; empty when something is.
+/// The reason why there is no search; empty when there is one.
 std::string objection_to(const SingleChannelEkfTables& tables) {
   const Assumptions& assume = tables.assume;
   const trackers::ToneModel<rigor::Interval> design = enclosed_values(tables.design);
@@ -79,9 +79,9 @@ std::string band_text(const Assumptions& assume) {
                       : ends;
 }
 
-/// The derivative of the prediction. Written out, it stays out of what is certified by structure: then the
-/// covariance is among the states of the tubes. With a leak the innovation in the steady state is not 0, and
-/// a range of gains costs too much.
+/// The derivative of the prediction. Written out, it prevents a certificate by structure: the covariance is
+/// then among the states of the tubes. With a leak the innovation in the steady state is not 0, and a range
+/// of gains costs too much.
 constexpr std::string_view kJacobian = R"TOML(jacobian = [
   ["cos(w)", "-sin(w)", "-(sin(w)*x1 + cos(w)*x2)"],
   ["sin(w)", "cos(w)", "cos(w)*x1 - sin(w)*x2"],
@@ -168,7 +168,7 @@ void add_recursion(Certificate& certificate, const CertifyProgress& progress) {
       recursion.name = certificate.design.name;
       part.certificate = certify(recursion, certificate.design_file, text, progress, certificate.extent,
                                  certificate.deadline);
-    } catch (const InputError& error) {  // a number that formulas write in another way
+    } catch (const InputError& error) {  // a number that formulas write differently
       part.objection = fmt::format("Not looked for: as a recursion the design is refused: {}.", error.what());
     }
   }

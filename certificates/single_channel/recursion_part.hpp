@@ -1,5 +1,5 @@
-// The same filter as a recursion of the tracker "model": its certificate is a part of this tracker's. What is
-// proved there is by the filter's structure (docs/model-proof.md, section 13), with a leak, too.
+// The same filter as a recursion of the tracker "model": its certificate is a part of this tracker's. Its
+// proofs use the filter's structure (docs/model-proof.md, section 13), also with a leak.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace veritrack::certificates {
 
-/// Of a certificate: its `particulars`.
+/// The `particulars` of a certificate.
 struct RecursionPart {
-  std::optional<Certificate> certificate;  ///< none where nothing was looked for
-  std::string objection;                   ///< then why, as a sentence
+  std::optional<Certificate> certificate;  ///< empty where nothing was searched for
+  std::string objection;                   ///< then the reason, as a sentence
 };
 
-/// What the recursion's own [require] asks, of what this design's does.
+/// The requirements of this design that the recursion's own [require] repeats.
 struct RecursionQuestion {
   bool largest_noise = false;
   bool radius = false;
@@ -28,13 +28,13 @@ struct RecursionQuestion {
 [[nodiscard]] std::string recursion_design_text(const SingleChannelEkfTables& tables,
                                                 const RecursionQuestion& question);
 
-/// Certifies the recursion where it can decide what is required and still open, and adds what it tells beside
-/// that as claims "recursion/...". Needs the upward mode; call when every other claim is there.
+/// Certifies the recursion where it can decide a requirement that is still open, and adds its further
+/// statements as claims "recursion/...". Needs the upward mode; call when every other claim is there.
 void add_recursion(Certificate& certificate, const CertifyProgress& progress);
 
 [[nodiscard]] const RecursionPart& recursion_part(const Certificate& certificate);
 
-/// Whether something is proved of the recursion.
+/// Whether something is proved about the recursion.
 [[nodiscard]] bool has_recursion(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

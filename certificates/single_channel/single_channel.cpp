@@ -41,11 +41,11 @@ Interval quadrature_bias(const sets::LockBranch& branch, const Interval& frequen
   return Interval::empty();
 }
 
-/// The frequencies around one, rad/sample, over which the bias is enclosed as well.
+/// The frequencies around one, rad/sample, over which the bias is also enclosed.
 constexpr double kBiasHalfWidth = 0.002;
 
-/// The bias over the frequencies around that of `bias`, when there is one; without a leak it is zero there,
-/// too.
+/// The bias over the frequencies around that of `bias`, when there is one; without a leak it is also zero
+/// there.
 SteadyStateBias bias_around(const trackers::ToneModel<Interval>& design, const SteadyStateBias& bias) {
   constexpr std::size_t kMostCells = 128;  // more would take too long
   SteadyStateBias around;
@@ -100,7 +100,7 @@ theorems::Derivation bias_derivation(const SteadyStateBias& bias, const SteadySt
   return derivation;
 }
 
-/// For which P(0|0) the sentences are true. A sentence that is not proved is about none in particular.
+/// The P(0|0) for which the sentences are true. A sentence that is not proved names none in particular.
 std::string start_covariance_words(const std::optional<single_channel::PhaseSet>& set) {
   if (!set) {
     return "";
@@ -124,7 +124,7 @@ Claim stability_claim(const Interval& r) {
   return claim;
 }
 
-/// A frequency of the design file; of one in Hz the double nearest to it, in rad/sample.
+/// A frequency of the design file; for one in Hz the double nearest to it, in rad/sample.
 BiasFrequency bias_frequency(const Number& number) {
   if (!number.in_hertz) {
     return {number.text, number.value};
@@ -166,7 +166,7 @@ void add_propositions(Certificate& certificate, const trackers::ToneModel<Interv
   add_all(single_channel::proposition_2());
 }
 
-/// The biases at the frequencies, of which that in the middle is returned.
+/// The biases at the frequencies; the middle one is returned.
 SteadyStateBias add_biases(Certificate& certificate, const trackers::ToneModel<Interval>& design,
                            const std::vector<BiasFrequency>& frequencies, const Interval& band) {
   const sets::LockBranch quadrature = sets::verify_lock_branch(design, band);

@@ -1,4 +1,4 @@
-// What can be said of a design of the single-channel tracker.
+// The certificate of a design of the single-channel tracker.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ struct BiasFrequency {
 /// propositions, and the claims of [require]. Needs the upward mode.
 void certify_single_channel(Certificate& certificate, const CertifyProgress& progress);
 
-/// Of these, the propositions alone. Needs the upward mode.
+/// Evaluates the propositions alone. Needs the upward mode.
 void single_channel_published_results(Certificate& certificate);
 
 /// The simulated run, from the edge of the assumed start errors along the signal that [simulate] names, of
@@ -41,8 +41,8 @@ void single_channel_published_results(Certificate& certificate);
 [[nodiscard]] Simulation simulate_single_channel(const SingleChannelEkfTables& tables);
 
 /// P(0|0) of a run that starts at that frequency (rad/sample) and phase (rad), in the frame of the estimated
-/// phase: as given, or where the covariance settles on a noise-free tone that reaches that phase. Needs
-/// round-to-nearest.
+/// phase: as given, or the value at which the covariance settles on a noise-free tone that reaches that
+/// phase. Needs round-to-nearest.
 [[nodiscard]] Eigen::Matrix3d run_start_covariance(const SingleChannelEkfTables& tables, double frequency,
                                                    double phase);
 

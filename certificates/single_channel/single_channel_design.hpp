@@ -27,7 +27,7 @@ struct SingleChannelEkfTables {
   SimulationSettings simulate;
 };
 
-/// Of a design of this tracker. Throws std::logic_error for another.
+/// The tables of a design of this tracker. Throws std::logic_error for another.
 [[nodiscard]] inline const SingleChannelEkfTables& single_channel_tables(const Design& design) {
   return tables_of<SingleChannelEkfTables>(design);
 }

@@ -6,10 +6,10 @@
 
 namespace veritrack::certificates {
 
-/// The tables of the design, with a member a table.
+/// The tables of the design, one member for each.
 [[nodiscard]] Json single_channel_design_json(const Design& read);
 
-/// The certificate of the same filter as a recursion, where something is proved of it.
+/// The certificate of the same filter as a recursion, where something is proved about it.
 [[nodiscard]] Json single_channel_evidence_json(const Certificate& certificate);
 
 /// The settings of the simulated run.

@@ -1,4 +1,4 @@
-// The single-channel tracker at work on samples.
+// The single-channel tracker run on samples.
 #include <cmath>
 
 #include "analysis/rigor/rounding.hpp"

@@ -8,7 +8,7 @@
 
 namespace veritrack::certificates {
 
-/// Of what `tune_single_channel` makes the best: those of certificates/tuning/objective.hpp for noise with a
+/// The objectives of `tune_single_channel`: those of certificates/tuning/objective.hpp for noise with a
 /// bound.
 [[nodiscard]] std::span<const std::string_view> single_channel_tuning_objectives();
 

@@ -1,4 +1,4 @@
-// What a certificate says of tuned values in Gaussian noise, where the search had estimates only.
+// The certified numbers of tuned values in Gaussian noise, where the search had estimates only.
 #pragma once
 
 #include <string>

@@ -12,14 +12,14 @@ namespace veritrack::certificates {
 
 namespace {
 
-/// A part of the text, in bytes, and what is to stand there.
+/// A part of the text, in bytes, and its replacement.
 struct Replacement {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::string text;
 };
 
-/// Where things stand in a text that toml++ has parsed.
+/// The places of things in a text that toml++ has parsed.
 class Places {
  public:
   Places(const TomlSource& source, std::string_view text)

@@ -7,15 +7,15 @@
 
 namespace veritrack::certificates {
 
-/// A key of [design] and its value as TOML; none: the key is to go.
+/// A key of [design] and its value as TOML; none: the key is removed.
 struct DesignEdit {
   std::string key;
   std::optional<std::string> value;
 };
 
-/// Values are replaced where they stand, a key that goes takes its line along, and one that is new gets a
-/// line below the others. Nothing when the text has no table [design] with a header and a line for each key.
-/// `text` must be a design file that can be read.
+/// Values are replaced in place, a removed key takes its line along, and a new key gets a line below the
+/// others. Empty when the text has no table [design] with a header and a line for each key. `text` must be a
+/// design file that can be read.
 [[nodiscard]] std::optional<std::string> with_design_values(const std::string& text,
                                                             const std::vector<DesignEdit>& edits);
 

@@ -1,4 +1,4 @@
-// What `veritrack tune` can make best of an extended Kalman filter.
+// The objectives of `veritrack tune` for an extended Kalman filter.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace veritrack::certificates {
 
 enum class Objective { long_run, for_ever, radius, noise, slew, lowest_snr, rms, simulated_rms };
 
-/// What is certified of design values, or, where it says so, estimated: for a search, whose result is
-/// certified afterwards. What is not known is as bad as can be.
+/// The numbers that are certified for design values, or, where stated, estimated: for a search, whose result
+/// is certified afterwards. Unknown numbers have the worst value.
 struct CertifiedValues {
   static constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -43,7 +43,7 @@ inline constexpr double kEnoughMargin = 0.03;
 struct ObjectiveWords {
   Objective objective = Objective::long_run;
   std::string_view name;   ///< as the command line has it
-  std::string_view words;  ///< what it is, in a sentence
+  std::string_view words;  ///< its words in a sentence
   bool with_bound = true;  ///< makes sense for noise with a bound
   bool with_gaussian = false;
 };
@@ -64,15 +64,15 @@ inline constexpr std::array<ObjectiveWords, 8> kObjectiveWords{{
 }};
 
 [[nodiscard]] const ObjectiveWords& words_of(Objective objective);
-/// Of that name; nothing when there is none.
+/// The objective of that name; empty when there is none.
 [[nodiscard]] std::optional<Objective> objective_called(std::string_view name);
 
 /// The value of an objective: rad/sample, of the amplitude, rad/sample per sample, or dB.
 [[nodiscard]] double value_of(const CertifiedValues& values, Objective objective);
 /// Whether less of it is better.
 [[nodiscard]] bool is_to_be_small(Objective objective);
-/// More is better: a logarithm of the value, of which a factor of e counts 1, as 8.7 dB do. Minus infinity
-/// where nothing is known.
+/// More is better: a logarithm of the value, where a factor of e counts 1, as do 8.7 dB. Minus infinity where
+/// nothing is known.
 [[nodiscard]] double merit_of(const CertifiedValues& values, Objective objective);
 /// "0.0021 rad/sample (3.4 Hz)", "16.3 dB": rounded to the side that makes it true.
 [[nodiscard]] std::string shown(const CertifiedValues& values, Objective objective,
@@ -82,7 +82,7 @@ inline constexpr std::array<ObjectiveWords, 8> kObjectiveWords{{
 /// where nothing is required.
 [[nodiscard]] bool asks_for_proofs(Objective objective, const Requirements& require);
 
-/// Everything that has to be known to judge values: the objective, and what [require] asks.
+/// Everything that is needed to judge values: the objective, and the requirements of [require].
 [[nodiscard]] std::set<Objective> needed(Objective objective, const Assumptions& assume,
                                          const Requirements& require);
 

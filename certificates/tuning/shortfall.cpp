@@ -17,11 +17,12 @@ namespace veritrack::certificates {
 
 namespace {
 
-constexpr double kMissing = 20.0;  // of what is not certified at all; larger than any ratio's logarithm
+constexpr double kMissing = 20.0;  // for numbers that are not certified at all; larger than any ratio's
+                                   // logarithm
 constexpr int kShortfallDigits = 3;
 constexpr std::string_view kLeakName = "leak";
 
-/// 0 when the value is as large as is wanted; else the logarithm of what is missing.
+/// 0 when the value is as large as requested; otherwise the logarithm of the missing factor.
 double missing(double value, double wanted) {
   if (value >= wanted) {
     return 0.0;
@@ -50,7 +51,7 @@ double shortage_with_gaussian_noise(const CertifiedValues& found, const Requirem
   return sum;
 }
 
-/// What may be smaller: the assumptions, and the leak of the design.
+/// The numbers that may be smaller: the assumptions, and the leak of the design.
 struct Terms {
   Assumptions assume;
   Number leak;
@@ -70,7 +71,7 @@ Number times(const Number& number, double factor) {
   return number_of(number.nearest * factor);
 }
 
-/// What is smaller is shown a little too small, so that what is said was certified.
+/// A reduced number is shown a little too small, so that the printed one was certified.
 std::string rounded_down(double value) {
   return rigor::to_decimal(value, kShortfallDigits, rigor::Direction::down);
 }
@@ -144,13 +145,13 @@ const Reducible kReducible[] = {
      },
      [](const Terms& terms) {
        const Assumptions& assume = terms.assume;
-       // An estimate in Gaussian noise knows nothing of starts.
+       // An estimate in Gaussian noise does not cover starts.
        return !assume.gaussian &&
               (assume.initial_frequency_error.nearest > 0.0 || assume.initial_phase_error.nearest > 0.0 ||
                assume.initial_amplitude_error.nearest > 0.0);
      }}};
 
-/// The largest factor that does, to within a few per cent; none when the least that is tried does not.
+/// The largest factor that works, to within a few per cent; empty when the smallest one tried does not work.
 std::optional<double> largest_factor(const std::function<bool(double)>& does) {
   constexpr double kLeast = 1.0 / 256.0;
   constexpr int kBisections = 6;
@@ -180,7 +181,8 @@ double shortage(const CertifiedValues& found, const Assumptions& assume, const R
   }
   double sum = 0.0;
   if (!std::isfinite(found.for_ever)) {
-    // Not covered: how far the set is from the starts, or, without one, from the noise and the slew.
+    // Not covered: the distance of the set from the starts, or, without a set, the shortfall in noise and
+    // slew.
     sum += 1.0 + missing(found.radius, assume.initial_frequency_error.nearest);
     if (!(found.radius > 0.0)) {
       sum += missing(found.noise, assume.noise.nearest / assume.amplitude.nearest);

@@ -27,7 +27,7 @@ double estimate(TrackerRun& tracker, double in_phase, double quadrature) {
   return tracker.step(std::span(sample).first(static_cast<std::size_t>(tracker.channels()))).frequency;
 }
 
-/// The mean square of a run over its later samples; NaN when an estimate is none.
+/// The mean square of a run over its later samples; NaN when an estimate is not a number.
 double mean_square(const Design& design, const Assumptions& assume, const TrialLength& length, int seed) {
   SimulationSettings settings;
   settings.samples = length.samples;
@@ -36,7 +36,7 @@ double mean_square(const Design& design, const Assumptions& assume, const TrialL
   const std::vector<trackers::Sample> samples = simulated_signal(assume, settings);
   const TrackerOnSamples run = kind_of(design).track(design);
   const trackers::Sample& first = samples.front();
-  // As far off as is assumed, each run in another direction: a filter that never gets rid of it is no good.
+  // As far off as assumed, each run in another direction: a filter that never removes this error is useless.
   const auto off = [&](int bit, const Number& error) {
     return (seed & bit) == 0 ? error.nearest : -error.nearest;
   };

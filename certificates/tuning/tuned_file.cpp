@@ -51,7 +51,7 @@ TuningResult tuned_file(const TuningProblem& problem, const TuningRequest& reque
                         const DesignEdits& edits) {
   const TuningOutcome outcome = search_values(problem, request);
   TuningResult result;
-  // What is as it was stays as it was written.
+  // Unchanged values stay as they were written.
   result.design_text = outcome.chosen == problem.given
                            ? request.design_text
                            : with_design_values(request.design_text, edits(outcome.chosen));

@@ -1,4 +1,4 @@
-// What both extended Kalman filters do when they are tuned, around what each certifies by itself.
+// The common steps of tuning both extended Kalman filters, around what each certifies by itself.
 #pragma once
 
 #include <functional>
@@ -11,32 +11,32 @@
 
 namespace veritrack::certificates {
 
-/// What a contraction certificate says, as the search judges it.
+/// The numbers of a contraction certificate by which the search judges it.
 [[nodiscard]] CertifiedValues values_of(const sets::KalmanFilterResult& result, const Requirements& require);
 
 /// Simulates the design when that is needed.
 void add_simulated(const Design& design, const Assumptions& assume, const std::set<Objective>& needed,
                    CertifiedValues& found);
 
-/// How values stand in the text of a design file.
+/// The form of values in the text of a design file.
 using DesignEdits = std::function<std::vector<DesignEdit>(const DesignValues&)>;
 
 /// Searches, and writes the result into the text of the design file.
 [[nodiscard]] TuningResult tuned_file(const TuningProblem& problem, const TuningRequest& request,
                                       const DesignEdits& edits);
 
-/// What a column knows of its tracker; `Tables` are those of its design file.
+/// The data of a column on its tracker; `Tables` are those of its design file.
 template <typename Tables>
 struct TunedColumn {
   DesignValues given;
   /// Writes values into [design].
   std::function<void(const DesignValues&, Tables&)> put;
-  /// What is asked for of a design, simulations apart. Opens its own rounding scopes.
+  /// The requested numbers of a design, except simulations. Opens its own rounding scopes.
   std::function<CertifiedValues(const Design&, const std::set<Objective>&)> certify;
   DesignEdits edits;
 };
 
-/// The design made best in what is wanted, whatever its tracker.
+/// The design that is best in the requested objective, whatever its tracker.
 template <typename Tables>
 [[nodiscard]] TuningResult tuned(const Design& design, const TuningRequest& request,
                                  const TunedColumn<Tables>& column) {

@@ -24,13 +24,13 @@ namespace {
 
 constexpr double kDecades = 4.0;  // around a start
 constexpr double kMissingMerit = 20.0;
-constexpr double kWeightOfOpen = 1e3;  // what is required comes first
+constexpr double kWeightOfOpen = 1e3;  // requirements come first
 constexpr double kNoLeakBelow = 1e-3;  // of the given leak
 constexpr double kMostLeak = 0.5;
 constexpr int kTradeOffDesigns = 8;
-constexpr int kChangeDesigns = 28;  // at most, to find out what would do
+constexpr int kChangeDesigns = 28;  // at most, to find changes that would work
 
-/// Thrown to end a search whose time is over, or that has looked at enough.
+/// Thrown to end a search whose time is over, or that has examined enough designs.
 struct Enough {};
 
 /// Three digits: more are of no use.
@@ -38,8 +38,8 @@ std::string decimal(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-/// The variance of the assumed noise in each channel, signal units squared; 0 where none is assumed. Of noise
-/// with a bound that of the uniform distribution in the disc.
+/// The variance of the assumed noise in each channel, signal units squared; 0 where none is assumed. For
+/// noise with a bound, that of the uniform distribution in the disc.
 double noise_variance(const Assumptions& assume) {
   if (assume.gaussian) {
     const double deviation = nearest_deviation(assume) * assume.amplitude.nearest;
@@ -105,7 +105,7 @@ class Search {
   }
 
  private:
-  /// log10 of q1/r and q2/r; of r where it counts by itself; of the leak's share where it is free.
+  /// log10 of q1/r and q2/r; of r where it matters by itself; of the leak's share where it is free.
   [[nodiscard]] Eigen::VectorXd point_of(const DesignValues& values) const {
     const rigor::NearestRounding nearest;
     const double r = number_of(values.r).nearest;
@@ -137,8 +137,8 @@ class Search {
   [[nodiscard]] bool leak_is_free() const {
     return problem_.free_leak && number_of(problem_.given.epsilon).nearest > 0.0;
   }
-  /// What the Kalman filter has for noise and steps of the frequency of the assumed deviations; its q1 is
-  /// that of the signal, 0, and a little.
+  /// The values of the Kalman filter for noise and steps of the frequency of the assumed deviations; its q1
+  /// is that of the signal, 0, plus a little.
   [[nodiscard]] Eigen::VectorXd kalman_point() const {
     const rigor::NearestRounding nearest;
     constexpr double kLeastRatio = 1e-6;  // of variances, where nothing is assumed
@@ -224,7 +224,7 @@ class Search {
            : problem_.objective == Objective::noise      ? "of the amplitude"
                                                          : "rad/sample per sample";
   }
-  /// What [require] asks of the objective itself.
+  /// The requirement of [require] on the objective itself.
   [[nodiscard]] std::optional<double> required() const {
     const Requirements& require = *problem_.require;
     const auto nearest = [&](const std::optional<Number>& number) {

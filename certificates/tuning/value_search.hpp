@@ -12,26 +12,26 @@
 
 namespace veritrack::certificates {
 
-/// What a column says of its tracker.
+/// The data of a column on its tracker.
 struct TuningProblem {
   const Assumptions* assume = nullptr;
   const Requirements* require = nullptr;
   DesignValues given;
   Objective objective = Objective::long_run;
   bool free_leak = false;
-  /// What is asked for of these values, under assumptions that need not be those of the design. Opens its own
-  /// rounding scopes.
+  /// The requested numbers of these values, under assumptions that need not be those of the design. Opens its
+  /// own rounding scopes.
   std::function<CertifiedValues(const DesignValues&, const Assumptions&, const std::set<Objective>&)> certify;
   /// The design with these values, whatever the text of its file.
   std::function<Design(const DesignValues&)> design_with;
 };
 
-/// What came of it.
+/// The result of the search.
 struct TuningOutcome {
   DesignValues chosen;
   CertifiedValues before;    ///< of the given values
   CertifiedValues after;     ///< of the chosen ones
-  bool is_met = false;       ///< everything required and the assumed starts, as far as it is looked at here
+  bool is_met = false;       ///< everything required and the assumed starts, as far as they are examined here
   bool was_stopped = false;  ///< by the deadline
   int looked_at = 0;
   std::vector<std::string> changes;  ///< TuningResult::changes
@@ -48,7 +48,7 @@ struct TuningOutcome {
 /// for one that does not fit the assumed noise.
 [[nodiscard]] Objective chosen_objective(const std::string& name, const Assumptions& assume);
 
-/// The sentences of the outcome: what was gained, and what has to be known of it.
+/// The sentences of the outcome: the gain, and the necessary remarks.
 [[nodiscard]] std::vector<std::string> notes_of(const TuningProblem& problem, const TuningOutcome& outcome);
 
 }  // namespace veritrack::certificates

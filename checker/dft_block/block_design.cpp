@@ -22,7 +22,7 @@ void read_pair(const Tree& pair, const std::string& name, Ball& low, Ball& high,
   }
 }
 
-/// Of the samples: 10 log10(amplitude^2 / (2 deviation^2)) is the signal-to-noise ratio in dB.
+/// The deviation of the samples: 10 log10(amplitude^2 / (2 deviation^2)) is the signal-to-noise ratio in dB.
 Ball sample_deviation(const Ball& amplitude, const Ball& decibels) {
   return amplitude * exp(-(decibels / Ball(20.0)) * log(Ball(10.0))) / sqrt(two);
 }

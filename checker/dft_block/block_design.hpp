@@ -1,4 +1,4 @@
-// The design of a block tracker as a certificate repeats it, and what sentences say of it.
+// The design of a block tracker as a certificate repeats it, and its words in sentences.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline const std::string kProbability = "dft-block/probability-of-losing-lock";
 
 class BlockDesign {
  public:
-  /// Objects to what is no design; nothing may then be said of it. The tree must outlive this.
+  /// Objects to an invalid design; no statement may then be made about it. The tree must outlive this.
   BlockDesign(const Tree& design, Objections& objections);
 
   [[nodiscard]] const BlockProblem& problem() const { return problem_; }
@@ -35,7 +35,7 @@ class BlockDesign {
   [[nodiscard]] bool asks_for(const char* key) const { return design_.at("require").find(key) != nullptr; }
   /// The number of this key of [require], which must be there.
   [[nodiscard]] Ball asked(const char* key) const;
-  /// What the claim of this id is to show, in short.
+  /// The aim of the claim of this id, in short.
   [[nodiscard]] std::string required_text(const std::string& id) const;
 
   /// The filter, with which every sentence begins.

@@ -74,7 +74,7 @@ BlockNumber dot(const std::vector<BlockNumber>& x, const std::vector<BlockNumber
 
 using Rows = std::array<std::array<BlockNumber, 6>, 3>;
 
-/// Of [A | B], the B of [I | A^-1 B]: elimination without exchanges, balls of everything where a pivot may be
+/// Turns [A | B] into [I | A^-1 B]: elimination without exchanges, balls of everything where a pivot may be
 /// zero.
 void eliminate(Rows& rows) {
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
 // A block of the block tracker on a tone of constant offset and amplitude without noise, as a map of nine
-// numbers, and balls of them that are never left: docs/block-tracker.md, section 6.
+// numbers, and balls of states that are never left: docs/block-tracker.md, section 6.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct BlockBall {
   std::array<Ball, kBlockStates> centre;
   Matrix shape{static_cast<slong>(kBlockStates), static_cast<slong>(kBlockStates)};  ///< S
   Ball radius, rate;
-  Ball turns;  ///< the phase error grows by so many turns with each block
+  Ball turns;  ///< the growth of the phase error with each block, turns
 };
 
 struct BlockBallFound {
@@ -41,7 +41,7 @@ struct BlockBallFound {
   std::vector<Range> fixed;  ///< those of the fixed point
 };
 
-/// Nothing is known of the states unless it is kept.
+/// The states are unknown unless it is kept.
 BlockBallFound check_ball(const BlockBall& ball, const BlockTone& tone);
 
 }  // namespace veritrack::checker

@@ -6,7 +6,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// What the evidence "lock" proposes.
+/// The proposal of the evidence "lock".
 struct Proposal {
   BlockSet set;
   BlockRate rate;
@@ -23,12 +23,12 @@ bool is_rate(const BlockRate& rate) {
          certainly_positive(rate.weight);
 }
 
-/// Where noise and slew push against a rate.
+/// The level at which noise and slew balance a rate.
 Ball rest(const Ball& disturbance, const BlockRate& rate) {
   return disturbance / (one - rate.rate);
 }
 
-/// Nothing for what proposes nothing.
+/// Empty for evidence without a proposal.
 std::optional<Proposal> read_proposal(const Tree& derivation, Objections& objections) {
   const Tree* evidence = find_evidence(derivation, "lock");
   if (evidence == nullptr || derivation.at("evidence").elements().size() != 1) {
@@ -88,7 +88,7 @@ Derivation lock_set(const Tree& derivation, const BlockProblem& problem, const B
   found.conditions = {{"rate", "errors fall", proved_if(falls)},
                       {"noise", "noise and slew do not push errors out", proved_if(tolerates)},
                       {"start", "the starts are in the set", proved_if(starts)}};
-  // The evidence is there for these two; whether it holds the starts is the certificate's to say.
+  // The evidence is there for these two; the certificate states whether it contains the starts.
   if (!falls) {
     objections.emplace_back("errors do not certainly fall at that rate");
   }

@@ -10,13 +10,13 @@
 
 namespace veritrack::checker {
 
-/// What a design assumes of the first prediction.
+/// A design's assumptions on the first prediction.
 struct BlockStart {
   Vector3 errors;                     ///< |z_i| at most
   std::optional<Matrix3> covariance;  ///< P(1|0); none: that of the steady state
 };
 
-/// The derivation as the checker computes it from the evidence "lock". `cells` counts.
+/// The derivation as the checker computes it from the evidence "lock". `cells` counts the cells.
 Derivation lock_set(const Tree& derivation, const BlockProblem& problem, const BlockStart& start_errors,
                     std::int64_t& cells, Objections& objections);
 

@@ -30,7 +30,7 @@ class BlockVerifier {
   void run() {
     result_.parts.push_back({"design", objections_});
     if (!objections_.empty()) {
-      return;  // nothing is said of what is no design
+      return;  // no statement is made about an invalid design
     }
     hypotheses_ = design_.hypotheses();
     for (const Tree& derivation : certificate_.at("derivations").elements()) {
@@ -73,7 +73,7 @@ class BlockVerifier {
     result_.parts.push_back({id, objections});
   }
 
-  /// What the verified derivation says of the quantity; a ball of everything when it says nothing.
+  /// The statement of the verified derivation on the quantity; a ball of everything without one.
   [[nodiscard]] Ball at_most(const char* name) const { return at_most(proved_, name); }
   [[nodiscard]] static Ball at_most(const Tree* proved, const char* name) {
     const Tree* quantity = proved != nullptr ? proved->at("quantities").find(name) : nullptr;
@@ -146,7 +146,7 @@ class BlockVerifier {
   /// Bins are one apart, and so are the locks about them.
   [[nodiscard]] static bool is_lock(const Ball& offset_error) { return certainly_less(offset_error, half); }
 
-  /// What a derivation in Gaussian noise says, with the numbers that the claim names.
+  /// The statement of a derivation in Gaussian noise, with the numbers that the claim names.
   [[nodiscard]] Claim losing_lock(const Tree& claim, const Tree& proved,
                                   const std::string& hypotheses) const {
     const Tree& evidence = claim.at("evidence");
@@ -255,7 +255,7 @@ class BlockVerifier {
                       most("offset_error_bound") + " bins, and in the long run at most " +
                       most("ultimate_offset_error") + " bins";
     const Tree* settled = evidence.find("settled_offset_error");
-    // No less than is said of every block says nothing.
+    // A bound that is no smaller than that for every block adds nothing.
     if (settled != nullptr && certainly_less(high_of(*settled), high_of(evidence.at("offset_error_bound"))) &&
         most("settled_offset_error") != most("offset_error_bound")) {
       found.statement +=

@@ -10,7 +10,7 @@
 
 namespace veritrack::checker {
 
-/// What a false lock is of, as the evidence writes it.
+/// The tone of a false lock, as the evidence writes it.
 struct FalseLockTone {
   std::string amplitude, offset;
 };
@@ -19,7 +19,7 @@ struct FalseLockTone {
 bool is_false_lock(const std::string& id);
 
 /// The derivation as the checker computes it from the evidence "false-lock". The tone must be one of those
-/// that the problem assumes. Objects to what is no evidence.
+/// that the problem assumes. Objects to invalid evidence.
 Derivation false_lock(const Tree& derivation, const BlockProblem& problem, Objections& objections);
 
 /// The tone of a derivation that was read.

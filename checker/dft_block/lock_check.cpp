@@ -25,7 +25,7 @@ std::pair<Ball, Ball> ratios(const Ball& x) {
 }  // namespace
 
 struct BlockLock::Cell {
-  std::array<std::array<Ball, 2>, 5> sides;  ///< x1, phase, offset error; offset less the middle; amplitude
+  std::array<std::array<Ball, 2>, 5> sides;  ///< x1, phase, offset error; offset minus the middle; amplitude
   [[nodiscard]] Ball side(std::size_t i) const { return Ball::hull(sides[i][0], sides[i][1]); }
 };
 
@@ -128,7 +128,7 @@ std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const ToneP
   const auto [sine, cosine] = ratios(cell.side(1));
   const Ball x = one + first;
   const Ball power = square(x);
-  // H'R^-1 (h(truth) - h(estimate)) = -secant z, and what the secant has more than the Jacobian.
+  // H'R^-1 (h(truth) - h(estimate)) = -secant z, and the difference of the secant from the Jacobian.
   const Ball grown = two + first;
   Matrix3 secant =
       diagonal(two * weight * x * grown * sums.aa, weight * power * sums.at * sine, weight * power * sums.bc);
@@ -208,7 +208,7 @@ bool BlockLock::true_near(const Ball& low, const Ball& high, const Ball& radius,
   whole.sides[3] = {(low - middle).lower(), (high - middle).upper()};
   whole.sides[4] = {problem_.amplitude_low.lower(), problem_.amplitude_high.upper()};
   const double amplitude = problem_.amplitude_low.lower_double();
-  // In which direction the information changes most: proposals.
+  // Proposals for the direction in which the information changes most.
   const std::array weights{4.0, 0.5, 1.3, 1.3, 2.0 / amplitude};
   std::vector<Cell> open{whole};
   constexpr std::int64_t kMost = 400'000;

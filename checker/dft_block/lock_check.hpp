@@ -14,7 +14,7 @@ namespace veritrack::checker {
 
 using Vector3 = std::array<Ball, 3>;
 
-/// A design and what is assumed of its tone.
+/// A design and the assumptions on its tone.
 struct BlockProblem {
   Ball q1, q2, q3, r;
   int half_width = 0;
@@ -23,19 +23,19 @@ struct BlockProblem {
   Ball noise, slew;
 };
 
-/// What the certificate proposes of a set: C, and the covariance between C C'/below and above C C'.
+/// A set as the certificate proposes it: C, and the covariance between C C'/below and above C C'.
 struct BlockSet {
   Matrix3 frame;
   Ball above, below;
   Ball floor;  ///< C^-1 Q C^-T is at least floor I
 };
 
-/// Of errors with |C^-1 z| <= radius.
+/// A set of errors with |C^-1 z| <= radius.
 struct BlockRate {
   Ball radius, rate, weight;
 };
 
-/// Of errors with |C^-1 z| <= radius, in Gaussian noise: see lock_loss_check.hpp.
+/// A set of errors with |C^-1 z| <= radius, in Gaussian noise: see lock_loss_check.hpp.
 struct BlockDrift {
   Ball radius, tilt, growth, weight, floor_weight;
   Matrix3 floor;
@@ -51,20 +51,21 @@ class BlockLock {
  public:
   BlockLock(const BlockProblem& problem, const BlockSet& set);
 
-  /// True only when it is verified for all errors, offsets and amplitudes; `cells` counts.
+  /// True only when it is verified for all errors, offsets and amplitudes; `cells` counts the cells.
   [[nodiscard]] bool falls(const BlockRate& rate, std::int64_t& cells) const;
-  /// True only when it is verified of the drift that, with A = F (1 - X secant) and J = N N', A'(1 - tilt F X
-  /// N N'X F')^-1 A <= growth and floor <= 1 - tilt F X N N'X F', likewise.
+  /// True only when it is verified for the drift that, with A = F (1 - X secant) and J = N N', A'(1 - tilt F
+  /// X N N'X F')^-1 A <= growth and floor <= 1 - tilt F X N N'X F', likewise.
   [[nodiscard]] bool drifts(const BlockDrift& drift, std::int64_t& cells) const;
   /// C^-1 (0, pi, 1)': added to C^-1 z by a change of the offset by a bin.
   [[nodiscard]] Vector3 slew_direction() const;
-  /// Added to |C^-1 z| in a block, at most.
+  /// An upper bound on what is added to |C^-1 z| in a block.
   [[nodiscard]] Ball disturbance() const;
-  /// |C^-1 z| of |z_i| <= bounds_i, at most.
+  /// An upper bound on |C^-1 z| for |z_i| <= bounds_i.
   [[nodiscard]] Ball length_of(const Vector3& bounds) const;
-  /// |z_i| of |C^-1 z| <= 1, at most.
+  /// Upper bounds on |z_i| for |C^-1 z| <= 1.
   [[nodiscard]] Ball reach(std::size_t i) const;
-  /// True only when P(1|0), of (x1, phase at the start, offset), is in the set for every amplitude.
+  /// True only when P(1|0), the covariance of (x1, phase at the start, offset), is in the set for every
+  /// amplitude.
   [[nodiscard]] bool holds(const Matrix3& covariance) const;
 
  private:
@@ -72,7 +73,7 @@ class BlockLock {
   [[nodiscard]] bool is_outside(const Cell& cell, const Ball& radius) const;
   struct OverCell;
   using InCell = std::function<bool(const Cell&, const TonePolynomial&)>;
-  /// What a block does over a cell; nothing unless the covariances stay between their bounds.
+  /// The effect of a block over a cell; empty unless the covariances stay between their bounds.
   [[nodiscard]] std::optional<OverCell> over(const Cell& cell, const TonePolynomial& tone) const;
   [[nodiscard]] bool falls_in(const Cell& cell, const TonePolynomial& tone, const BlockRate& rate) const;
   [[nodiscard]] bool drifts_in(const Cell& cell, const TonePolynomial& tone, const BlockDrift& drift) const;

@@ -80,8 +80,8 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   const BlockDrift drift{number("radius"), number("tilt"),         number("growth"),
                          number("weight"), number("floor_weight"), exact_matrix(matrices.at("floor"))};
   const Ball slew_share = number("slew_share");
-  // cannot bind (above, below): no step keeps bounds of the covariance that leave its steady state out, so
-  // that nothing drifts in such a set (docs/block-tracker.md, section 4).
+  // cannot bind (above, below): no step keeps covariance bounds that exclude its steady state, so that no
+  // drift is proved for such a set (docs/block-tracker.md, section 4).
   if (!is_drift(drift) || !certainly_positive(slew_share) || !certainly_at_most(one, set.above) ||
       !certainly_at_most(one, set.below)) {
     objections.emplace_back("the evidence is no set");
@@ -105,7 +105,7 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   };
   const Loss loss = loss_of(problem, noise, lock, drift, slew_share);
   add("probability_of_losing_lock", min(loss.probability, one));
-  // An estimate is the next prediction before the slew, of which the mean square is no larger.
+  // An estimate is the next prediction before the slew; its mean square is no larger.
   add("offset_error_bound", drift.radius * lock.reach(2) + problem.slew);
   add("rms_offset_error", sqrt(loss.mean_square) * lock.reach(2));
   add("rms_offset_error_without_start", sqrt(loss.mean_square_without_start) * lock.reach(2));

@@ -10,7 +10,7 @@
 
 namespace veritrack::checker {
 
-/// What a design assumes of noise and starts.
+/// A design's assumptions on noise and starts.
 struct BlockNoise {
   Ball deviation;  ///< of the real and of the imaginary part of a bin, at most
   Ball blocks;
@@ -21,8 +21,8 @@ struct BlockNoise {
 /// The decimal "snr_db" in the evidence of a derivation "lowest-snr", dB; empty where there is none.
 std::string lowest_snr_text(const Tree& derivation);
 
-/// The derivation "lock-in-noise", or "lowest-snr" with the noise of its own, as the checker computes it from
-/// its evidence. `cells` counts.
+/// The derivation "lock-in-noise", or "lowest-snr" with its own noise, as the checker computes it from its
+/// evidence. `cells` counts the cells.
 Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, const BlockNoise& noise,
                          std::int64_t& cells, Objections& objections);
 

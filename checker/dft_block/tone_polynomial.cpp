@@ -7,8 +7,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Taylor coefficients of sinc about `d`, exact but for rounding. d y'' + 2 y' + pi^2 d y = 0 gives, with y =
-/// sum c_n t^n: d (n+2)(n+1) c_{n+2} + (n+1)(n+2) c_{n+1} + pi^2 (d c_n + c_{n-1}) = 0.
+/// Taylor coefficients of sinc about `d`, exact apart from rounding. d y'' + 2 y' + pi^2 d y = 0 gives, with
+/// y = sum c_n t^n: d (n+2)(n+1) c_{n+2} + (n+1)(n+2) c_{n+1} + pi^2 (d c_n + c_{n-1}) = 0.
 std::vector<Ball> coefficients_far(const Ball& d, std::size_t count) {
   const Ball angle = pi() * d;
   const Ball square_of_pi = square(pi());
@@ -41,7 +41,7 @@ std::vector<Ball> coefficients_near(const Ball& d, std::size_t count) {
     }
     coefficient = -coefficient * square_of_pi / Ball(static_cast<double>((j + 2) * (j + 3)));
   }
-  // What is left out of c_n is at most sum_{j > 60} binom(j, n) pi^j/(j+1)! for |d| <= 1: below 1e-40.
+  // The remainder of c_n is at most sum_{j > 60} binom(j, n) pi^j/(j+1)! for |d| <= 1: below 1e-40.
   const Ball rest = Ball::within(Ball(1e-30));
   for (Ball& each : c) {
     each += rest;
@@ -67,7 +67,7 @@ TonePolynomial::TonePolynomial(const Ball& middle, int half_width) {
       }
     }
   }
-  // Powers of x alone, their coefficients first, so that what cancels among bins cancels.
+  // Powers of x alone, their coefficients first, so that terms of different bins cancel.
   for (std::size_t power = 0; power < kTerms; ++power) {
     aa_[power] = zero;
     ab_[power] = zero;
@@ -87,8 +87,8 @@ TonePolynomial::TonePolynomial(const Ball& middle, int half_width) {
     }
   }
   // |c_n| <= pi^n/(n+1)!, so that the coefficients of all products with i + k = n are together at most (2
-  // pi)^n/n! for each bin. What is left out has n >= kTerms, and two factors i, k <= n and two powers less at
-  // most: n^2 (2 pi)^n/n! reach^(n-2), of which each is less than half of the one before where reach < 1/2.
+  // pi)^n/n! for each bin. The remainder has n >= kTerms, and at most two factors i, k <= n and two powers
+  // less: n^2 (2 pi)^n/n! reach^(n-2), each less than half of the one before where reach < 1/2.
   rest_ = square(Ball(static_cast<double>(kTerms)));
   for (std::size_t n = 1; n <= kTerms; ++n) {
     rest_ = rest_ * two * pi() / Ball(static_cast<double>(n));

@@ -1,5 +1,5 @@
-// How a tone and an estimate of it meet in the bins of a block, as polynomials in how far both offsets are
-// from a middle: the checker's own way, from the differential equation of sinc.
+// The sums over the bins of a block of a tone and an estimate of it, as polynomials in the distances of both
+// offsets from a middle: the checker's own derivation, from the differential equation of sinc.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct MeetingSums {
   Ball bc;  ///< s'(x) (s(x) - s(d))/(x - d)
 };
 
-/// Those of all offsets near a middle.
+/// The sums for all offsets near a middle.
 class TonePolynomial {
  public:
   TonePolynomial(const Ball& middle, int half_width);
@@ -31,11 +31,11 @@ class TonePolynomial {
 
  private:
   static constexpr std::size_t kTerms = 16;
-  /// Of the sum over m of s(x) s(d): the coefficient of x^i d^k.
+  /// The coefficient of x^i d^k in the sum over m of s(x) s(d).
   std::array<std::array<Ball, kTerms>, kTerms> products_;
-  /// Of those sums in which both are x, by powers of x.
+  /// The sums in which both are x, by powers of x.
   std::array<Ball, kTerms> aa_, ab_, bb_;
-  Ball rest_;  ///< what is left out of any sum is at most this times reach^(kTerms - 2)
+  Ball rest_;  ///< the remainder of any sum is at most this times reach^(kTerms - 2)
 };
 
 }  // namespace veritrack::checker

@@ -1,4 +1,4 @@
-// What the checker found, in words and as JSON.
+// The checker's findings, in words and as JSON.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace veritrack::checker {
 /// about, and VERIFIED or NOT VERIFIED.
 std::string to_text(const Verification& found);
 
-/// Everything: parts with their objections, all sentences, what is required. UTF-8, two spaces a level.
+/// Everything: parts with their objections, all sentences, the requirements. UTF-8, two spaces a level.
 std::string to_json(const Verification& found);
 
 }  // namespace veritrack::checker

@@ -13,7 +13,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// What a design file means that leaves a key out (docs/design-file.md).
+/// The meaning of a design file that omits a key (docs/design-file.md).
 const std::string* default_of(const std::string& path) {
   static const std::map<std::string, std::string> defaults{
       {"assume.amplitude", "1"}, {"assume.slew", "0"},          {"assume.initial_covariance", "steady-state"},
@@ -30,7 +30,7 @@ std::string inside(const std::string& path, const std::string& name) {
   return longer.append(path.empty() ? "" : ".").append(name);
 }
 
-/// What stands in braces for a value with its unit, and the unit as the certificate writes it behind numbers.
+/// The name in braces of a value with its unit, and the unit as the certificate writes it behind numbers.
 struct Measured {
   const toml::node* value;
   std::string unit;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLongest = 200;
 
-/// Enough for decimals of so many characters to be told from the doubles next to them.
+/// Enough to distinguish decimals of this many characters from the doubles next to them.
 constexpr slong kBits = 4096;
 
 /// The end of a ball, rounded to a double away from the ball.

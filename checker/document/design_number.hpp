@@ -8,12 +8,12 @@
 
 namespace veritrack::checker {
 
-/// What {text, lo, hi} stands for: the decimal and the double nearest to it, with which a filter runs, and
-/// all between them. Objects unless [lo, hi] is the tightest interval of doubles around the decimal. Throws
-/// std::invalid_argument for a text that is no decimal, or longer than 200 characters.
+/// The numbers that {text, lo, hi} stands for: the decimal, the double nearest to it, with which a filter
+/// runs, and all between them. Objects unless [lo, hi] is the tightest interval of doubles around the
+/// decimal. Throws std::invalid_argument for a text that is not a decimal, or longer than 200 characters.
 Ball read_number(const Tree& number, Objections& objections);
 
-/// The same for a number of which more is known. Objects unless it is.
+/// The same for a number that must be positive, or not negative. Objects unless it is.
 Ball read_positive(const Tree& number, const std::string& name, Objections& objections);
 Ball read_not_negative(const Tree& number, const std::string& name, Objections& objections);
 
@@ -22,7 +22,7 @@ Ball read_not_negative(const Tree& number, const std::string& name, Objections& 
 Ball read_frequency(const Tree& number, const Tree& assume, const std::string& name, Objections& objections);
 /// Its change, in rad/sample per sample or as "x Hz per second", 2 pi x/sample_rate^2.
 Ball read_slew(const Tree& number, const Tree& assume, Objections& objections);
-/// As sentences have it: the text, which says its unit, or with this one.
+/// As in sentences: the text with the unit that it names, or else with this one.
 std::string words_of(const Tree& number, const std::string& unit);
 
 /// The ends of [lowest, highest], rad/sample. Objects unless 0 <= lowest <= highest <= pi, so that a band is

@@ -42,7 +42,7 @@ bool opens(std::string_view text) {
   return std::any_of(kOpenings.begin(), kOpenings.end(), is_there);
 }
 
-/// Without what stands between it and what follows.
+/// Without the text between it and the next part.
 std::string trimmed(std::string text) {
   if (text.ends_with(". Then ")) {
     text.erase(text.size() - std::string_view("Then ").size());
@@ -85,7 +85,7 @@ std::string listed(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
-/// What a sentence says after its hypotheses.
+/// The part of a sentence after its hypotheses.
 std::string conclusion(const Sentence& sentence) {
   std::string rest = sentence.text.substr(sentence.hypotheses.size());
   return rest.starts_with(", ") ? rest.substr(2) : rest;

@@ -1,5 +1,5 @@
-// The top of a document: what is assumed, each hypothesis once, and each sentence with the numbers of those
-// that it rests on.
+// The top of a document: the hypotheses, each once, and each sentence with the numbers of the hypotheses that
+// it rests on.
 #pragma once
 
 #include <string>
@@ -13,11 +13,12 @@ namespace veritrack::checker {
 std::string word_of(Verdict verdict);
 
 /// The lines that a document has at its top, without empty ones and reasons: "**Assume**", the hypotheses,
-/// "**Then**" and the sentences that name theirs; then the other sentences. Of those that belong there.
+/// "**Then**" and the sentences that name theirs; then the other sentences. Includes only sentences that
+/// belong there.
 std::vector<std::string> first_page(const std::vector<Sentence>& sentences);
 
-/// Objects unless these lines, from the headline to the first section, say that, and nothing else between the
-/// first and the last line of it, or right behind that, but reasons. Undecided sentences may stand before it.
+/// Objects unless these lines, from the headline to the first section, say that, and contain nothing but
+/// reasons between its first and last line or right behind it. Undecided sentences may stand before it.
 void check_first_page(const std::vector<std::string>& lines, const std::vector<std::string>& expected,
                       Objections& objections);
 

@@ -35,13 +35,13 @@ class Builder : public nlohmann::json_sax<Json> {
     return fail("not JSON at byte " + std::to_string(position));
   }
 
-  /// What was read, when it was read to the end.
+  /// The tree that was read, when it was read to the end.
   Tree result() { return std::move(root_); }
   [[nodiscard]] const std::string& objection() const { return objection_; }
 
  private:
   static constexpr std::size_t kDeepest = 32;
-  /// Of which each takes some hundred bytes; the largest certificate of designs/ has a hundredth of them.
+  /// Each takes some hundred bytes; the largest certificate of designs/ has a hundredth of this number.
   static constexpr std::size_t kMostValues = 4'000'000;
 
   bool fail(std::string objection) {
@@ -153,7 +153,7 @@ long Tree::integer() const {
 }
 
 std::vector<std::string> Tree::unread(std::size_t most) const {
-  // As deep as the file is nested, which the reader limits. Names are copied for what is found alone.
+  // Recursion as deep as the file is nested, which the reader limits. Names are copied only for findings.
   std::vector<std::string> paths;
   const auto add = [&](const Tree& value, const std::string& name) {
     for (const std::string& rest : value.unread(most - paths.size())) {

@@ -1,9 +1,8 @@
 // The certificate as a tree. Read with a SAX parser: duplicate keys, which a DOM would silently resolve, are
-// malformed, as are numbers with a fraction (reals that mean something are strings) and what is nested
-// deeply.
+// malformed, as are numbers with a fraction (reals that mean something are strings) and deep nesting.
 //
-// The tree knows what has been read of it: a value that no check reads is a place to lie, and `unread` finds
-// them all.
+// The tree records which of its values have been read: a value that no check reads is a place to lie, and
+// `unread` finds them all.
 #pragma once
 
 #include <map>
@@ -15,7 +14,7 @@
 
 namespace veritrack::checker {
 
-/// The file is not a certificate, as a sentence: exit status 2.
+/// The file is not a certificate; says why in a sentence. Exit status 2.
 struct Malformed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -38,14 +37,14 @@ class Tree {
   [[nodiscard]] const std::vector<std::pair<std::string, Tree>>& members() const;
   [[nodiscard]] const std::vector<Tree>& elements() const;
   [[nodiscard]] const std::string& text() const;
-  /// Whether it is this text, which is then read; another is left unread.
+  /// Whether the value is this text. If so it counts as read; any other value is left unread.
   [[nodiscard]] bool is(std::string_view text) const;
   [[nodiscard]] bool truth() const;
   [[nodiscard]] long integer() const;
   [[nodiscard]] Kind kind() const { return kind_; }
-  /// The paths, as "claims[3].verdict", of the values that nothing has read, at most so many. A text or a
-  /// truth value is read when it was asked for, an object or array when all in it is, and an empty one when
-  /// its members or elements were asked for.
+  /// The paths, as "claims[3].verdict", of the values that nothing has read, at most `most` of them. A text
+  /// or a truth value is read when it was asked for, an object or array when all in it is, and an empty one
+  /// when its members or elements were asked for.
   [[nodiscard]] std::vector<std::string> unread(std::size_t most) const;
 
   /// Adds a member; false when there is one of this name.

@@ -21,7 +21,7 @@ namespace {
 using Lines = std::vector<std::string>;
 
 constexpr const char* kSectionOfRequirements = "## What was required";
-/// How a document begins to say that the time was limited.
+/// The beginning of a document's remark that the time was limited.
 constexpr const char* kStopped = "*Stopped by the time limit.* ";
 
 Lines lines_of(const std::string& document) {
@@ -63,7 +63,7 @@ void check_sentences(const Lines& section, const Lines& expected, Objections& ob
   }
 }
 
-/// What the document says with a verdict, and where: `section` is the heading, empty for the top.
+/// The document's statements with a verdict, and their place: `section` is the heading, empty for the top.
 struct Compared {
   std::string section;
   Lines lines;  ///< "| " begins a row of which only the beginning is compared
@@ -128,7 +128,7 @@ class Elsewhere {
     return plain_.objection_to(std::string_view(line).substr(known.size()));
   }
 
-  /// How the line begins when that is compared elsewhere.
+  /// The beginning of the line when that is compared elsewhere.
   [[nodiscard]] std::string known_part(const std::string& line) const {
     for (const auto& [section, known] : compared_) {
       const auto found = std::find_if(known.begin(), known.end(), [&](const std::string& one) {
@@ -165,7 +165,7 @@ class Elsewhere {
                : Refused("begins a block of another language");
   }
 
-  /// What is fenced is quoted when it is the design file; then nothing in it may end the fence.
+  /// A fenced block is a quotation when it is the design file; then nothing in it may end the fence.
   Refused inside(const std::string& line) {
     if (line == fence_) {
       fence_.clear();
@@ -201,7 +201,7 @@ std::string first_two_cells(const std::string& row) {
   return row.substr(0, second) + " |";
 }
 
-/// Behind the headline, before anything else that is seen, come the sentences with their verdicts.
+/// The sentences with their verdicts come behind the headline, before anything else that is seen.
 void check_top(const Lines& lines, Objections& objections) {
   const auto first = std::find_if(lines.begin() + (lines.empty() ? 0 : 1), lines.end(), [](const auto& line) {
     return !line.empty() && !line.starts_with(kStopped);

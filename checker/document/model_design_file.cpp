@@ -7,20 +7,20 @@ namespace veritrack::checker {
 
 namespace {
 
-/// All that a design says, by where it stands.
+/// Everything in a design, by its place.
 using Said = std::map<std::string, std::string>;
 
 std::string element(const std::string& path, std::size_t number) {
   return path + "[" + std::to_string(number) + "]";
 }
 
-/// What the certificate says.
+/// The content of the certificate.
 class CertificateSays {
  public:
   explicit CertificateSays(Objections& objections) : objections_(&objections) {}
 
-  /// Names with formulas are lists in the certificate and tables in the file: they are told by their names.
-  /// (A tree is not nested deeply.)
+  /// Names with formulas are lists in the certificate and tables in the file: they are identified by their
+  /// names. (A tree is not nested deeply.)
   void add(const std::string& path, const Tree& value) {
     switch (value.kind()) {
       case Tree::Kind::text:
@@ -64,7 +64,7 @@ class CertificateSays {
   Said said_;
 };
 
-/// What the file says, with its defaults, as the certificate would.
+/// The content of the file, with its defaults, in the form of the certificate.
 class FileSays {
  public:
   FileSays(const TomlFile& file, const toml::table& part, Objections& objections)
@@ -134,7 +134,7 @@ class FileSays {
       list(element(path, i), *rows->get(i));
     }
   }
-  /// Those of a table.
+  /// The values of a table.
   template <typename Work>
   void each_of(const std::string& path, const toml::node& value, const Work& work) {
     if (!value.is_table()) {
@@ -150,7 +150,7 @@ class FileSays {
             [&](const std::string& name, const toml::node& member) { leaf(path + "." + name, member); });
   }
 
-  /// What may be in Hz is said with its unit.
+  /// Numbers that may be in Hz are given with their unit.
   void requirements(const toml::node& table) {
     each_of("require", table, [&](const std::string& name, const toml::node& value) {
       const std::string path = "require." + name;
@@ -234,7 +234,7 @@ class FileSays {
     const toml::table* table = value.as_table();
     return table != nullptr && table->size() == 1 ? table->get("bound") : nullptr;
   }
-  /// The value of { unit = value }, of which the certificate says that it is in that unit; else the value.
+  /// The value of { unit = value }, when the certificate gives it in that unit; otherwise the value.
   const toml::node& in_unit(const toml::node& value, const std::string& unit, const std::string& says) {
     const toml::table* table = value.as_table();
     const toml::node* inside = table != nullptr && table->size() == 1 ? table->get(unit) : nullptr;

@@ -1,5 +1,5 @@
-// The design file of a tracker that is written down as a recursion: its formulas, as texts, and what may be
-// written in more than one way.
+// The design file of a tracker that is given as a recursion: its formulas, as texts, and the values that may
+// be written in more than one way.
 #pragma once
 
 #include "checker/document/json_tree.hpp"
@@ -8,9 +8,9 @@
 
 namespace veritrack::checker {
 
-/// Objects unless the file says what the certificate's design says, text by text: all that is verified rests
-/// on. Units of states and where simulations start are left aside.
-/// `part`: the table of the file that is the design.
+/// Objects unless the file agrees with the certificate's design, text by text, in everything that the
+/// verification rests on. Units of states and starts of simulations are left aside. `part`: the table of the
+/// file that is the design.
 void compare_model_design(const Tree& design, const TomlFile& file, const toml::table& part,
                           Objections& objections);
 

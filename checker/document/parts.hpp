@@ -1,4 +1,4 @@
-// The parts of a certificate, each with what is wrong with it, and the sentences that are established.
+// The parts of a certificate, each with its objections, and the sentences that are established.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +25,10 @@ struct Sentence {
   Verdict verdict = Verdict::undecided;  ///< of the sentence as written
   std::string text;                      ///< with all hypotheses
   bool is_summary = false;               ///< belongs to the block at the top of the document
-  std::string hypotheses = {};           ///< how the text begins, where it is known
+  std::string hypotheses = {};           ///< the beginning of the text, where it is known
 };
 
-/// What a key of [require] asks.
+/// The requirement of a key of [require].
 struct Requirement {
   std::string claim;  ///< the id of the claim that decides it
   std::string text;   ///< in short
@@ -41,7 +41,7 @@ struct Verification {
   std::vector<Requirement> requirements;  ///< in the order of the certificate's claims
   /// Everything that [require] asks for is among them and PROVED, and something is asked for.
   bool requirements_proved = false;
-  std::vector<std::string> quoted;  ///< name and source of the design, which nothing rests on
+  std::vector<std::string> quoted;  ///< name and source of the design; nothing rests on them
   std::string design_sha256;        ///< of the design file, as the certificate says
   std::int64_t cells = 0;           ///< boxes that the certified sets took
   /// True only when every part is verified, and there is something beside the design and the verdict.
@@ -56,9 +56,9 @@ struct TrackerKind {
   void (*verify)(const Tree& certificate, bool all_boxes, Verification& result);
 };
 
-/// Adds a part for each claim, checked by `check`, which says what was found of it, and one for the verdict
+/// Adds a part for each claim, checked by `check`, which returns the finding on it, and one for the verdict
 /// of the certificate: the claims that are marked as required are those that [require] asks for (`asked`),
-/// and the verdict is that of all of these together, UNDECIDED where a claim is not there.
+/// and the verdict is that of all of these together, UNDECIDED where a claim is missing.
 void check_claims(const Tree& certificate, std::vector<Requirement> asked,
                   const std::function<Claim(const Tree& claim, Objections& objections)>& check,
                   Verification& result);

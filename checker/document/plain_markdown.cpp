@@ -9,10 +9,11 @@ namespace veritrack::checker {
 
 namespace {
 
-/// What the program escapes with a backslash.
+/// The characters that the program escapes with a backslash.
 constexpr std::string_view kEscapable = R"(\`*_{}[]<>#+!|$~&)";
 
-/// Beyond ASCII. None of them looks like a letter of a verdict but for one, which is taken for it.
+/// Characters beyond ASCII. None of them looks like a letter of a verdict except one, which is taken for that
+/// letter.
 constexpr std::array<std::string_view, 18> kOther{"—", "–", "²", "∈", "≈", "≤", "≥", "±", "·",
                                                   "×", "→", "−", "π", "é", "°", "µ", "α", "ε"};
 
@@ -54,7 +55,7 @@ std::size_t plain_character(std::string_view text) {
   return other == kOther.end() ? 0 : other->size();
 }
 
-/// One line: what of it is refused, and the letters that are seen.
+/// One line: the part that is refused, and the letters that are seen.
 class Line {
  public:
   Line(std::string_view text, std::string& seen) : text_(text), seen_(seen) {}
@@ -186,7 +187,7 @@ class Line {
     at_ += end + 2;
   }
 
-  /// Of a link or a picture: a file beside the document, or a place in it.
+  /// The target of a link or a picture: a file beside the document, or a place in it.
   void take_target() {
     const std::size_t end = rest().find(')');
     const std::string_view target = rest().substr(0, end).substr(2);

@@ -1,8 +1,8 @@
-// What a reader of a Markdown document sees, for the Markdown that the program writes and no other.
+// The text that a reader of a Markdown document sees, for the Markdown that the program writes and no other.
 //
 // A renderer knows many ways to show a word that is not in the text: tags, character references, links and
-// emphasis inside a word, letters of another alphabet, TeX. Here only what the program writes is allowed, so
-// that what is seen are the letters of the text without a few marks.
+// emphasis inside a word, letters of another alphabet, TeX. Here only Markdown that the program writes is
+// allowed, so that a reader sees the letters of the text without a few marks.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,13 @@ std::string quotation_of(const std::string& name, const std::string& source);
 /// The lines of a document outside its quotations, one after the other.
 class PlainMarkdown {
  public:
-  /// Why the line is refused: what in it the program does not write, or that with the letters of the lines
-  /// before, whatever stands between them, it shows PROVED or REFUTED. Nothing for a line that is allowed.
+  /// The reason why the line is refused: it contains something that the program does not write, or together
+  /// with the letters of the lines before, whatever stands between them, it shows PROVED or REFUTED. Empty
+  /// for a line that is allowed.
   [[nodiscard]] std::optional<std::string> objection_to(std::string_view line);
   /// Likewise of a line between fences, which is shown as it is; `is_math`: as TeX.
   [[nodiscard]] std::optional<std::string> objection_to_fenced(std::string_view line, bool is_math);
-  /// A line that is read elsewhere, which parts the letters before it from those behind.
+  /// A line that is read elsewhere; it separates the letters before it from those behind.
   void skip_line() { seen_.clear(); }
 
  private:

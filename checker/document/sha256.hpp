@@ -1,4 +1,4 @@
-// The SHA-256 of a file, by which it is known.
+// The SHA-256 of a file, which identifies it.
 #pragma once
 
 #include <string>

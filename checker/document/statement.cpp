@@ -72,7 +72,7 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
   if (low && sense == Sense::bounds_above) {
     objections.push_back(name + " can only be bounded from above");
   } else if (low && !certainly_at_most(*low, value.low)) {
-    // cannot bind (value.high): there is an objection either way; this chooses a word of it.
+    // cannot bind (value.high): there is an objection either way; this only chooses one of its words.
     const bool alarm = certainly_less(value.high, *low);
     objections.push_back((alarm ? "ALARM: " : "") + name + " is not proved to be at least lo" + found);
   }
@@ -110,7 +110,7 @@ void check_values(const Tree& claimed, const std::vector<Quantity>& known, Objec
   }
 }
 
-/// The verdict on a condition and what is said of its sides.
+/// The verdict on a condition and the statement on its sides.
 Verdict check_condition(const Tree& claimed, const Condition& known, Objections& objections) {
   check_verdict(claimed.at("verdict").text(), known.verdict, "condition " + known.id, objections);
   const auto check_side = [&](const char* side, const std::optional<Range>& value, Sense sense) {

@@ -14,7 +14,7 @@ class TomlFile {
   explicit TomlFile(const std::string& text);
 
   [[nodiscard]] const toml::table& table() const { return table_; }
-  /// A number as it is written: toml++ says only where.
+  /// A number as it is written: toml++ reports only its place.
   [[nodiscard]] std::string literal(const toml::node& number) const;
   /// A string, or a number as it is written; empty for anything else.
   [[nodiscard]] std::string text(const toml::node& value) const;

@@ -8,8 +8,9 @@ namespace veritrack::checker {
 
 namespace {
 
-/// What the rounding of all steps adds to a filter, for samples of at most 1 before they are rounded: a
-/// step's rounding, from states of at most twice what they are exactly, over what a step forgets.
+/// The contribution of the rounding of all steps to a filter, for samples of at most 1 before they are
+/// rounded: a step's rounding, from states of at most twice their exact size, over the share that a step
+/// forgets.
 Ball rounding_of_steps(const Ball& rate, const Ball& interval) {
   const Ball exact_decay = exp(-(rate * interval));
   const Ball forgotten = one - exact_decay;

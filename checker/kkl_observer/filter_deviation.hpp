@@ -1,4 +1,4 @@
-// How far the filters of the program may be from those of the differential equations (docs/rounding.md,
+// Bounds on the distance of the program's filters from those of the differential equations (docs/rounding.md,
 // The KKL observer).
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace veritrack::checker {
 
-/// What is proved for a neighbourhood of this size of all filter states, times the amplitude over the rates,
-/// keeps them away from zero: span(lambda, 1), where M xi = 0, comes near zero.
+/// The statements proved for a neighbourhood of all filter states, of this size times the amplitude over the
+/// rates, keep them away from zero: span(lambda, 1), where M xi = 0, comes near zero.
 inline const Ball neighbourhood(0x1p-31);
 
 /// Over the signal's amplitude, filter by filter (s), with the neighbourhood. Without a sampling interval:

@@ -14,7 +14,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// A key of [require], and the claim that it makes of a quantity of "kkl-robustness".
+/// A key of [require], and its claim on a quantity of "kkl-robustness".
 struct RequiredBound {
   const char *key, *claim, *quantity, *before, *after;
 };
@@ -26,7 +26,7 @@ constexpr std::array kRequirements{
     RequiredBound{"settles_within", "kkl/settling-time", "settling_time", "the proved bounds are valid from ",
                   " s after the start on"}};
 
-/// What the estimates are computed from, and how.
+/// The input of the estimates, and the way they are computed.
 std::string arithmetic(const Tree& chosen) {
   if (const Tree* interval = chosen.find("sampling_interval")) {
     return "For the program in double precision, started at rest, with samples every " + text_of(*interval) +
@@ -78,7 +78,7 @@ class KklVerifier {
     }
     result_.parts.push_back({"design", objections});
     if (!objections.empty()) {
-      return;  // nothing is said of what is no design
+      return;  // no statement is made about an invalid design
     }
     for (const Tree& derivation : certificate_.at("derivations").elements()) {
       check_one(derivation);

@@ -13,12 +13,13 @@ namespace {
 /// |M xi|^2 is the sum over triples of filters of det(xi, lambda, 1)^2, for any number of filters.
 ///
 /// inf |M T(x)|^2 / |T(x)|^2 over the signals of one frequency w: T is linear in (x1, x2), so that this is
-/// the smaller eigenvalue of a pencil (seen, length) of 2x2 matrices, each a sum of squares of rows. Of such
-/// matrices det(seen) + z det(mixed) + z^2 det(length) has sums of squares of 2x2 determinants of the rows.
-/// The row of a set of filters is V (Re z, Im z / w) / |z|^2 with V its Vandermonde determinant and z the
-/// product of its rates + jw: for one filter that is T, for three the determinant of the triple. So the
-/// determinant of the rows of P and Q is V V' Im(conj(z) z') / w over |z|^2 |z'|^2, from which what is in
-/// both sets cancels: with z and z' of P \ Q and Q \ P it is over the |z|^2 of all filters in P or Q.
+/// the smaller eigenvalue of a pencil (seen, length) of 2x2 matrices, each a sum of squares of rows. For such
+/// matrices the coefficients of det(seen) + z det(mixed) + z^2 det(length) are sums of squares of 2x2
+/// determinants of the rows. The row of a set of filters is V (Re z, Im z / w) / |z|^2 with V its Vandermonde
+/// determinant and z the product of its rates + jw: for one filter that is T, for three the determinant of
+/// the triple. So the determinant of the rows of P and Q is V V' Im(conj(z) z') / w over |z|^2 |z'|^2, from
+/// which the filters in both sets cancel: with z and z' of P \ Q and Q \ P it is over the |z|^2 of all
+/// filters in P or Q.
 class Excitation {
  public:
   explicit Excitation(const std::vector<Ball>& lambda) : lambda_(lambda) {

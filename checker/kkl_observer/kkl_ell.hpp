@@ -11,7 +11,8 @@ namespace veritrack::checker {
 /// cannot be had.
 Ball excitation_ratio(const std::vector<Ball>& lambda, const Ball& frequency);
 
-/// The infimum over the range lies in [low, high], the upper end because it is reached at `attained`, rad/s.
+/// The infimum over the range lies in [low, high]; `high` is an upper bound because it is reached at
+/// `attained`, rad/s.
 struct EllEnclosure {
   Ball low, high, attained;
 };

@@ -1,4 +1,4 @@
-// What a disturbance, and the start at rest, do to the filters of a KKL observer.
+// The effect of a disturbance, and of the start at rest, on the filters of a KKL observer.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace veritrack::checker {
 /// A number for each filter.
 using Filters = std::vector<Ball>;
 
-/// How large a linear function of the filters' moves can get, relative to the amplitude of the signal: by the
-/// disturbance (at the lowest amplitude), and by the remaining effect of the start.
+/// The largest size of a linear function of the filters' moves, relative to the amplitude of the signal: from
+/// the disturbance (at the lowest amplitude), and from the remaining effect of the start.
 struct Size {
   Ball driven, left;
   [[nodiscard]] Ball sum() const { return driven + left; }
@@ -30,8 +30,8 @@ class Moves {
 
   /// At least sup |q'u|, for every q of the balls.
   [[nodiscard]] Size size(std::span<const Ball> q) const;
-  /// At least |xi_i| / A of one filter, with `gain` at least that of the signal's response: for how large the
-  /// program's numbers get.
+  /// At least |xi_i| / A of one filter, with `gain` at least that of the signal's response: bounds the size
+  /// of the program's numbers.
   [[nodiscard]] Ball reach(std::size_t filter, const Ball& gain) const;
 
  private:
@@ -46,7 +46,7 @@ class Moves {
   void cut_periods(const KklDesign& design);
   void cut_time();
   [[nodiscard]] Ball largest_response(std::span<const Ball> q) const;
-  /// What the second derivatives add, at most.
+  /// An upper bound on what the second derivatives add.
   static Ball bending(std::span<const Ball> q, const Cell& cell);
   [[nodiscard]] Ball kernel_integral(std::span<const Ball> q) const;
 

@@ -21,7 +21,7 @@ Verdict vanishes(const Polynomial& polynomial, int degree) {
     for (std::size_t i = 0; i < Variables; ++i) {
       point[i] = Ball(at[i]);
     }
-    // cannot bind (zero): the identities are true, and nothing of a certificate is in them.
+    // cannot bind (zero): the identities are true, and do not depend on a certificate.
     if (!certainly_equal(polynomial(point), zero)) {
       return Verdict::undecided;
     }
@@ -152,13 +152,14 @@ Ball continuity_modulus(const KklDesign& design, const Ball& ell) {
   return (driven + length * largest + phi_slope * gamma) / smallest;
 }
 
-/// What is true, or false, for every design; then section V, with lambda = (1, 2, 3, 4) and w = 3.
+/// First the claims that are true, or false, for every design; then section V, with lambda = (1, 2, 3, 4) and
+/// w = 3.
 std::vector<Condition> claims_of_every_design() {
   const Ball column_count(static_cast<double>(columns(ones, ones).size()));
   const Ball largest = two * excitation_ratio({one, two, Ball(3.0), four}, Ball(3.0));
   const Ball printed(5.0);
   return {{"invariance", R"(\tfrac{\partial T}{\partial x} f = F T + G h)", vanishes<4>(residual, 2)},
-          // The scan has lost (4), with which it could be decided: nothing may be said of it.
+          // The scan has lost (4), which would be needed to decide it: no statement may be made about it.
           {"phase-formula",
            R"(\Phi = \tan^{-1}(\sqrt{x_{30}}\, x_{10} / x_{20}) \text{ where } T \text{ of (6) solves (3)})",
            Verdict::undecided},
@@ -177,10 +178,10 @@ std::vector<Condition> claims_of_every_design() {
            decide_at_most(printed, largest), printed, largest}};
 }
 
-/// mu of (9) on T(O_r), and what follows of gamma.
+/// mu of (9) on T(O_r), and the consequences for gamma.
 void add_inverse(const KklDesign& design, const Ball& ell, const EllEnclosure& infimum, const Tree& claimed,
                  Derivation& found) {
-  // The enclosure that is given, if it is true; what was verified of (10) otherwise.
+  // The given enclosure, if it is true; otherwise the verified one of (10).
   Range limit(two * infimum.low, two * infimum.high);
   for (const Tree& condition : claimed.at("conditions").elements()) {
     const Tree* side = condition.at("id").text() == "mu-vanishes" ? condition.find("rhs") : nullptr;
@@ -238,7 +239,7 @@ void check_paper_claims(const Tree& claimed, const KklDesign& design, const Ball
   if (infimum) {
     add_inverse(design, ell, *infimum, claimed, found);
   }
-  // A slip of the paper is none of the design.
+  // A slip of the paper is not one of the design.
   if (verdict_of(claimed) != Verdict::undecided) {
     objections.emplace_back("the paper's claims must not have an overall verdict");
   }

@@ -5,7 +5,7 @@
 
 namespace veritrack::checker {
 
-/// `ell` is the one in use in (9), `infimum` that of (10) once verified, without which nothing is decided
+/// `ell` is the one in use in (9). `infimum` is that of (10), once verified; without it nothing is decided
 /// about mu of (9).
 void check_paper_claims(const Tree& derivation, const KklDesign& design, const Ball& ell,
                         const std::optional<EllEnclosure>& infimum, Objections& objections);

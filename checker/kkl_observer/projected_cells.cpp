@@ -144,7 +144,7 @@ bool ProjectedCells::is_true(const Statement& statement, const Box& box, int dep
   return is_true(statement, lower, depth - 1, cells) && is_true(statement, upper, depth - 1, cells);
 }
 
-/// Of the sum over all rows of (first F^2 + second) row'u, for the two coefficients of each.
+/// The size of the sum over all rows of (first F^2 + second) row'u, for the two coefficients of each.
 Size ProjectedCells::sum_of(const std::vector<std::array<Ball, 2>>& coefficients) const {
   Filters q(lambda_.size(), zero);
   Size change{zero, zero};
@@ -246,7 +246,7 @@ Size ProjectedCells::Across::outright(const Size& first) const {
 // With u replaced by r u for r from 0 to 1, e goes from 0 to its value continuously; were it first at +-error
 // for some r < 1, the right-hand side there would be at most r times what it is checked to be for r = 1.
 bool ProjectedCells::error_at_most(const ProjectedCell& cell, const Ball& error) const {
-  // cannot bind (first): it spares work, next to what is asked of the sums.
+  // cannot bind (first): it only saves work; the requirement on the sums is stronger.
   const Ball first = first_order(cell, error).sum();
   if (!certainly_at_most(first, error)) {
     return false;
@@ -303,7 +303,7 @@ bool ProjectedCells::amplitude_error_at_most(const ProjectedCell& cell, const Ba
   const auto estimate = []<typename S>(const ProjectedSignal<S>& at, const Ball& piece) {
     return sqrt(square(at.frequency) + S(piece));
   };
-  // What d and the linear part get of e.
+  // The contributions of e to d and to the linear part.
   const auto of_e = [&]<typename S>(const ProjectedSignal<S>& at, const Ball& piece) {
     const S found = estimate(at, piece);
     return (pulled(at, kSecond) + at.cosine * reciprocal(found + at.frequency)) * reciprocal(found);
@@ -342,7 +342,7 @@ bool ProjectedCells::amplitude_error_at_most(const ProjectedCell& cell, const Ba
                                      end(k), end(k + 1)));
   }
   const Size raised = linear + k1.sum() * k1 + d.sum() * d;
-  // The disturbance counts for less at a higher amplitude. sqrt(1 + t) - 1 is at most t / 2, and largest in
+  // The disturbance has less effect at a higher amplitude. sqrt(1 + t) - 1 is at most t / 2, and largest in
   // size below at the lowest t.
   const auto of_amplitude = [&](const Size& x) {
     return amplitude_low_ * x.driven + amplitude_high_ * x.left;

@@ -79,7 +79,7 @@ class ProjectedCells {
   [[nodiscard]] Size sum_of(const std::vector<std::array<Ball, 2>>& coefficients) const;
   /// At least q'(F^2 + w^2 + e) u for all |e| <= error.
   [[nodiscard]] Size first_order(const ProjectedCell& cell, const Ball& error) const;
-  /// What the other term of e is made of: the entries of Q u and of Q (F^2 + w^2) u, and 1 / ((1 + q'u)
+  /// The factors of the other term of e: the entries of Q u and of Q (F^2 + w^2) u, and 1 / ((1 + q'u)
   /// |v|^2).
   struct Across {
     std::vector<Size> move;
@@ -92,7 +92,7 @@ class ProjectedCells {
     [[nodiscard]] Size outright(const Size& first) const;
   };
   [[nodiscard]] Across across(const ProjectedCell& cell) const;
-  /// Is |e| <= error, exactly so, at all points? By continuity from u = 0 on.
+  /// Is |e| <= error, for exactly this error, at all points? By continuity from u = 0 on.
   [[nodiscard]] bool error_at_most(const ProjectedCell& cell, const Ball& error) const;
 
   Filters lambda_;

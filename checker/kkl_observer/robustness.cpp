@@ -31,7 +31,7 @@ struct ExactBounds {
   Ball largest_ell, relative_square, frequency_error, amplitude_error;
 };
 
-/// What computing such estimates in double precision adds to the errors: rad/s, signal units.
+/// The contribution of double precision to the errors of such estimates: rad/s, signal units.
 MapRounding rounding_of(const KklDesign& design, const Ball& settling_time, const Ball& ell,
                         const ExactBounds& exact) {
   static const Ball kSmallest(0x1p-240);
@@ -111,11 +111,11 @@ void check_kkl_robustness(const Tree& claimed, const KklDesign& design, const Ba
   const Ball largest_ell = established(end_of(quantities.find("largest_ell"), "lo"), are.ratio_at_least);
   const Ball relative_square =
       established(end_of(left_side(claimed, "frequency-exists"), "lo"), are.relative_square_at_least);
-  // Where mu of (9) may not vanish the estimates are others.
+  // Where mu of (9) may not vanish the estimates are different.
   const Verdict regular = proved_if(certainly_at_most(ell, largest_ell));
   const Verdict exists = all_of({regular, proved_if(certainly_positive(relative_square))});
-  // Exact errors within the claimed bounds less what rounding adds, which supposes no more than the claimed
-  // bounds.
+  // The exact errors must be within the claimed bounds minus the contribution of rounding, which assumes no
+  // more than the claimed bounds.
   const ExactBounds claim{largest_ell, relative_square,
                           end_of(quantities.find("frequency_error_bound"), "hi"),
                           end_of(quantities.find("amplitude_error_bound"), "hi")};

@@ -1,4 +1,4 @@
-// What the assumed disturbance does to the estimates of a KKL observer: the derivation "kkl-robustness".
+// The effect of the assumed disturbance on the estimates of a KKL observer: the derivation "kkl-robustness".
 #pragma once
 
 #include "checker/kkl_observer/kkl_design.hpp"

@@ -121,7 +121,7 @@ State state(const FilterStates& states, const Rates& rates) {
   return found;
 }
 
-/// In engineering units, of states whose exact amplitude is from `low` to `high`: |x1| <= high, |x2| <= high
+/// In engineering units, for states whose exact amplitude is from `low` to `high`: |x1| <= high, |x2| <= high
 /// w_hat.
 Value amplitude(const State& at, const FilterStates& states, const Ball& low, const Ball& high) {
   const Value x1 = at.x1.within(high);
@@ -141,7 +141,7 @@ MapRounding map_rounding(const FilterStates& states) {
   }
   const State at = state(states, rates);
   result.frequency = root(at.x3, states.least_square).error;
-  // What x1 and x2 can be is the most that the amplitude can be.
+  // The bound on x1 and x2 is the largest amplitude.
   const Ball most = sqrt(square(at.x1.size) + square(at.x2.size) / states.least_square).upper();
   Ball low = states.least_amplitude.lower();
   if (!certainly_positive(low) || !certainly_less(low, most)) {

@@ -1,4 +1,4 @@
-// How far the estimates that a KKL observer computes in double precision are from the exact ones of the same
+// Bounds on the distance of a KKL observer's estimates in double precision from the exact ones of the same
 // filter states (docs/rounding.md, The KKL observer).
 #pragma once
 
@@ -6,8 +6,7 @@
 
 namespace veritrack::checker {
 
-/// What is known of filter states xi, at any scale: 2 |M xi|^2 >= largest_ell |xi|^2, and the exact
-/// estimates.
+/// Facts about filter states xi, at any scale: 2 |M xi|^2 >= largest_ell |xi|^2, and the exact estimates.
 struct FilterStates {
   Filters lambda;  ///< 1/s; the program holds a double in each ball
   Ball ell;        ///< in use in (9)
@@ -21,8 +20,8 @@ struct MapRounding {
   Ball amplitude;  ///< over |xi|, 1/s
 };
 
-/// By the error of each operation. Balls of everything where there is no bound; always unless the program
-/// computes that mu of (9) is zero.
+/// Sums the errors of the operations. Balls of everything where there is no bound, and always unless the
+/// program computes that mu of (9) is zero.
 MapRounding map_rounding(const FilterStates& states);
 
 }  // namespace veritrack::checker

@@ -227,7 +227,7 @@ bool SignalCells::amplitude_error_at_most(const KklCell& cell, const Ball& bound
   if (!certainly_less(relative, one)) {
     return false;
   }
-  // w_hat / w, and what the errors of x1 and x2 get of e: the sum of row_i (T + u)_i.
+  // w_hat / w, and the factor of e in the errors of x1 and x2: the sum of row_i (T + u)_i.
   const Ball speed = sqrt(one + Ball::within(relative));
   const auto pulled = [&]<typename S>(const KklSignal<S>& x, Row row) -> S {
     S sum(Ball::within(row_[row].sum()));
@@ -268,7 +268,7 @@ bool SignalCells::amplitude_error_at_most(const KklCell& cell, const Ball& bound
       (m_size.sum() * square(slow) + two * abs(cell.over.cosine.value) * abs(slow - one)).upper();
   squared.driven += k1_size.sum() * k1_size.driven + times_m * m_size.driven;
   squared.left += k1_size.sum() * k1_size.left + times_m * m_size.left;
-  // sqrt(1 + t) - 1 is largest in size at the lowest t. The disturbance counts for less at a higher
+  // sqrt(1 + t) - 1 is largest in size at the lowest t. The disturbance has less effect at a higher
   // amplitude.
   const Ball error =
       (amplitude_low_ * squared.driven + amplitude_high_ * squared.left) / (one + sqrt(one - squared.sum()));

@@ -6,8 +6,8 @@
 //     e = x3_hat - w^2 = -y'N'(F^2 + w^2) u / |y|^2,
 //     (x1, x2)_hat / A - (x1, x2) = [lambda 1]^+ ((F^2 + w^2) u + e (T + u)).
 // A cell is a box of (w, p, z1, z2): the signal sin p, with x2 = -w cos p, and N'u = z. On it both errors are
-// linear functions of u, whose coefficients are enclosed with their derivatives; Moves says how large those
-// functions get. Signals and moves may change sign together, so that half a turn of p is enough.
+// linear functions of u, whose coefficients are enclosed with their derivatives; Moves bounds those
+// functions. Signals and moves may change sign together, so that half a turn of p is enough.
 #pragma once
 
 #include <functional>

@@ -47,7 +47,7 @@ BallPolynomial value_of_taylor(const std::array<Ball, kTerms + 1>& f, const Ball
     near[k] = f[k].near();
     error = bound_on(error * size + abs(f[k] - Ball(near[k])).upper_double());
   }
-  // By Horner's scheme: what alternates cancels before it is cut off.
+  // By Horner's scheme: alternating terms cancel before truncation.
   BallPolynomial value(near[kTerms - 1]);
   for (std::size_t k = kTerms - 1; k-- > 0;) {
     value = value * x;
@@ -97,7 +97,7 @@ BallPolynomial wave(const BallPolynomial& x, bool is_cosine) {
 
 }  // namespace
 
-// 1/(c + d) less its Taylor polynomial of degree four is -d^5/(c^5 (c + d)).
+// 1/(c + d) minus its Taylor polynomial of degree four is -d^5/(c^5 (c + d)).
 BallPolynomial reciprocal(const BallPolynomial& x) {
   const Ball middle(x.constant());
   const Ball all = x.range();
@@ -164,9 +164,9 @@ BallPolynomial arctangent(const BallPolynomial& x) {
 // imaginary part of log(1 + w), if 1 + a > 0: along the segment to (x, y), which stays in a half plane
 // without the cut, both are continuous. It is that of w (1 - w (1/2 - w (1/3 - w/4))), and of a rest: w^5
 // times the integral of (1 - t)^4/(1 + t w)^5 over t in [0, 1]. Where a >= -c > -1, |1 + t w| >= 1 - t c, and
-// with u = (1 - t)/(1 - t c) the integral is at most that of u^4/(1 - c) over u in [0, 1]. So what is cut off
-// is the same in all directions and of the size of w alone, where a quotient and its arc tangent are far
-// wider.
+// with u = (1 - t)/(1 - t c) the integral is at most that of u^4/(1 - c) over u in [0, 1]. So the truncated
+// part is the same in all directions and depends on the size of w alone, whereas a quotient and its arc
+// tangent are far wider.
 BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x) {
   const Ball of_x = x.range();
   const Ball of_y = y.range();

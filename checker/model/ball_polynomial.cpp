@@ -157,7 +157,7 @@ const BallPolynomial::Norms& BallPolynomial::norms() const {
   }
   norms_.all = bound_on(norms_.all);
   if (std::isnan(norms_.all)) {
-    norms_.all = kInfinity;  // what is not a number bounds nothing
+    norms_.all = kInfinity;  // "not a number" bounds nothing
   }
   norms_are_known_ = true;
   return norms_;

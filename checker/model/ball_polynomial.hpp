@@ -4,10 +4,10 @@
 //
 // The coefficients of all x^a v^b w^c of the same degrees |a|, |b|, |c| that stand with one s^l z^m are a
 // form, whose Bombieri norm [p]^2 = sum |p_abc|^2 a!/|a|! b!/|b|! c!/|c|! bounds it on the balls; [pq] <=
-// [p][q] (Beauzamy, Bombieri, Enflo, Montgomery), so that norms bound what is cut off of products, too.
+// [p][q] (Beauzamy, Bombieri, Enflo, Montgomery), so that norms also bound the truncated part of products.
 //
-// Coefficients are doubles. Whatever the mode of rounding, an operation of doubles is wrong by at most
-// 2^-52 of its result or of the subnormal unit: that goes into the bound, generously.
+// Coefficients are doubles. In every rounding mode, an operation on doubles is wrong by at most 2^-52 of its
+// result or of the subnormal unit: that goes into the bound, generously.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace veritrack::checker {
 
-/// How many s^l z^m have l + m <= degree. They are numbered by degree, and then by m.
+/// The number of s^l z^m with l + m <= degree. They are numbered by degree, and then by m.
 constexpr std::size_t places_up_to(int degree) {
   return static_cast<std::size_t>((degree + 1) * (degree + 2) / 2);
 }
@@ -43,7 +43,7 @@ class BallPolynomial {
   /// s and z.
   static BallPolynomial phase();
   static BallPolynomial frequency();
-  /// A component of one of the vectors. The monomials must outlive all that is computed.
+  /// A component of one of the vectors. The monomials must outlive everything computed from it.
   static BallPolynomial variable(const VectorMonomials& monomials, std::size_t number);
   /// constant + by_phase s + by_frequency z, up to an error.
   static BallPolynomial affine(double constant, double by_phase, double by_frequency, double error);
@@ -60,7 +60,7 @@ class BallPolynomial {
   /// All values divided by 2 over all s, integrated: their mean, as a polynomial in z, and an error for x.
   [[nodiscard]] BallPolynomial mean_over_phase() const;
   [[nodiscard]] double constant() const { return coefficients_.empty() ? 0.0 : coefficients_[0]; }
-  /// The highest degree in the vectors of which there are coefficients; -1 for zero.
+  /// The highest degree in the vectors with coefficients; -1 for zero.
   [[nodiscard]] int vector_degree() const { return degree_; }
   /// The coefficients of a monomial of the vectors: places_up_to(4 - degree) of them, or none.
   [[nodiscard]] std::span<const double> block(int degree, std::size_t number) const;
@@ -74,7 +74,8 @@ class BallPolynomial {
   BallPolynomial& operator-=(const BallPolynomial& y) { return add(y, -1.0); }
   /// This and factor times y.
   BallPolynomial& add(const BallPolynomial& y, double factor);
-  /// The bound on the distance, of which nothing is left: the polynomial alone. Of what is known only.
+  /// Returns the bound on the distance and sets it to zero: the polynomial alone remains. Only for a bounded
+  /// one.
   [[nodiscard]] double take_error() { return std::exchange(error_, 0.0); }
   /// All functions within `distance` of these.
   BallPolynomial& widen(double distance);
@@ -96,7 +97,7 @@ class BallPolynomial {
   }
   [[nodiscard]] const Norms& norms() const;
   [[nodiscard]] std::size_t begin_of(int degree) const;
-  /// So many coefficients as this degree needs; none are lost.
+  /// Makes room for the coefficients of this degree; none are lost.
   void grow(int degree, const VectorMonomials* monomials);
   void set_error(double error);
   [[nodiscard]] bool is_zero() const { return coefficients_.empty() && error_ == 0.0; }

@@ -5,7 +5,7 @@
 
 namespace veritrack::checker {
 
-/// A scalar that knows only whether it may depend on a variable.
+/// A scalar that records only whether it may depend on a variable.
 struct Dependence {
   bool depends = false;
 

@@ -8,7 +8,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// More than any lock could be told apart in.
+/// More than enough to tell any locks apart.
 constexpr long kMostOfATurn = 1'000'000;
 
 long capped(long value) {
@@ -36,8 +36,8 @@ bool moves_on(const TrackedModel& model) {
 
 Repeats::Repeats(const Ball& value) {
   const double near = value.near();
-  // cannot bind (value, near): what is only about a whole number would count as one, and the distance that
-  // follows would be shorter.
+  // cannot bind (value, near): a number close to a whole one would count as one, and the resulting distance
+  // would be shorter.
   if (certainly_equal(value, Ball(near)) && std::floor(near) == near && std::abs(near) <= 1000.0) {
     whole_ = std::labs(static_cast<long>(near));
   }
@@ -117,7 +117,7 @@ Repeats Repeats::periodic(long denominator) const {
 
 namespace {
 
-/// The largest degree of what makes the next state: of a filter, of its model, its derivatives and its
+/// The largest degree of the formulas of the next state; for a filter, of its model, its derivatives and its
 /// measurement.
 long degree_of_step(const ModelRecursion& recursion) {
   long most = 1;

@@ -1,5 +1,5 @@
-// How near another lock may be: a frequency that the tracker may settle at instead of the true one, as far as
-// its formulas and the signal's tell (docs/model-proof.md, section 18).
+// How near a false lock may be: a frequency at which the tracker may settle instead of the true one, as far
+// as its formulas and the signal's show (docs/model-proof.md, section 18).
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 namespace veritrack::checker {
 
 /// The degree of a value as a quotient of polynomials in the states and in sines and cosines of them: how
-/// many parts of a turn of an angle, or changes of the sign of states, it may not see. What sin(x) cos(x) and
-/// I Q do not see of half a turn has the degree 2. Computed with in place of numbers.
+/// many parts of a turn of an angle, or changes of the sign of states, it may not see. sin(x) cos(x) and I Q,
+/// which do not see half a turn, have the degree 2. Formulas are evaluated over degrees in place of numbers.
 class Repeats {
  public:
   Repeats(double value) : Repeats(Ball(value)) {}  // NOLINT(google-explicit-constructor)
@@ -19,9 +19,10 @@ class Repeats {
   /// State number `index` of `count`.
   static Repeats variable(std::size_t index, std::size_t count);
 
-  /// That of the numerator and of the denominator together.
+  /// The degree of the numerator and of the denominator together.
   [[nodiscard]] long parts() const;
-  /// The largest whole number, of all states, that is a factor or a divisor of a state here; 0 of a constant.
+  /// The largest whole number, over all states, that is a factor or a divisor of a state here; 0 for a
+  /// constant.
   [[nodiscard]] long multiple() const;
 
   friend Repeats operator+(const Repeats& x, const Repeats& y);
@@ -43,11 +44,11 @@ class Repeats {
 
  private:
   [[nodiscard]] bool is_constant() const { return multiples_.empty() && parts() == 0; }
-  /// Of both, entry by entry, added.
+  /// The multiples of both, added entry by entry.
   static std::vector<long> multiples(const Repeats& x, const Repeats& y);
-  /// Some other function than those of period 2 pi: of twice the degree, to be safe with sums.
+  /// A function other than those of period 2 pi: twice the degree, to be safe with sums.
   [[nodiscard]] Repeats function() const;
-  /// Of period 2 pi, with the degree of its denominator for each of its numerator.
+  /// A function of period 2 pi, with the degree of its denominator for each of its numerator.
   [[nodiscard]] Repeats periodic(long denominator) const;
 
   std::vector<long> multiples_;  ///< of the states

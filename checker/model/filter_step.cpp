@@ -58,9 +58,9 @@ class JacobianForms {
   }
 
   [[nodiscard]] const PlaceMatrix& constant() const { return constant_; }
-  /// At least (F - F_0) P (F - F_0)' for every xi of the ball, where P is positive semidefinite: of forms of
+  /// At least (F - F_0) P (F - F_0)' for every xi of the ball, where P is positive semidefinite: for forms of
   /// degree a, by Cauchy and Schwarz, the sum of A P A' over the monomials, each times a!/alpha! of its
-  /// exponents, inverted; and of several parts, weighted by any shares.
+  /// exponents, inverted; and for several parts, weighted by any shares.
   [[nodiscard]] PlaceMatrix spread(const PlaceMatrix& covariance) const {
     std::vector<PlaceMatrix> parts;
     std::vector<double> sizes;
@@ -212,7 +212,7 @@ bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) con
       const Ball other = is_high ? -one - one / Ball(eta) : one - one / Ball(eta);
       return sum(sum(of_room, of_carried, BallPolynomial(factor)), of_spread, BallPolynomial(other));
     };
-    // In the middle of the part the least eigenvalue is greatest about there: it has one peak.
+    // The least eigenvalue in the middle of the part is greatest near there: it has one peak.
     const PlaceMatrix near_room = middle_of(room);
     const PlaceMatrix near_carried = middle_of(carried);
     const PlaceMatrix near_spread = middle_of(spread);
@@ -235,7 +235,8 @@ bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) con
     const double eta = std::exp(0.5 * (from + to));
     return eta > 0.0 && (is_high || eta < 1.0) && certainly_definite(rest(room, carried, spread, eta));
   };
-  // Of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. Its ends decide.
+  // As functions of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. The ends of
+  // c decide.
   const auto is_kept = [&](const PlaceMatrix& covariance, const PlaceMatrix& next, bool is_high) {
     return is_kept_with(covariance, next, is_high, one) &&
            (certainly_equal(ratio, one) ||
@@ -272,9 +273,9 @@ const FilterStep::LaterPlace& FilterStep::later() const {
   return *later_;
 }
 
-// P+ = middle + D Y D', D D' = delta, |Y| <= 1: what it does beside the middle is D p with |p| <= |L' i|, L
-// L' = R^-1 H delta H' R^-1 and i the innovation. |m + D p|^2 <= m' (I - spread/mu)^-1 m + mu |p|^2 for every
-// mu above the spread.
+// P+ = middle + D Y D', D D' = delta, |Y| <= 1: its effect beside that of the middle is D p with |p| <= |L'
+// i|, L L' = R^-1 H delta H' R^-1 and i the innovation. |m + D p|^2 <= m' (I - spread/mu)^-1 m + mu |p|^2 for
+// every mu above the spread.
 std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double of_gaussian) const {
   const LaterPlace& place = later();
   const TubeOver there = moved();

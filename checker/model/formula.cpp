@@ -22,7 +22,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-/// What waits until its right operand is complete. Higher binds tighter.
+/// An operator that waits until its right operand is complete. Higher binds tighter.
 struct Waiting {
   enum class What { open, call, binary, sign };
   What what = What::open;
@@ -144,7 +144,7 @@ std::string Reader::number() {
   return number;
 }
 
-/// What waits and binds at least so tightly has its operands now.
+/// Waiting operators that bind at least this tightly now have their operands.
 void Reader::complete(int strength) {
   while (!waiting_.empty() && waiting_.back().strength >= strength) {
     emit(waiting_.back().step);
@@ -194,7 +194,7 @@ void Reader::close() {
   --open_;
 }
 
-/// What follows an operand: false when it is nothing of a formula.
+/// The token after an operand: false when it is not part of a formula.
 bool Reader::operation() {
   if (take(')')) {
     close();

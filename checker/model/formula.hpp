@@ -11,13 +11,13 @@
 
 namespace veritrack::checker {
 
-/// Thrown for text that is no formula, with what is wrong and where: the number of the character, from 1.
+/// Thrown for text that is not a formula. Says what is wrong and where: the number of the character, from 1.
 class FormulaError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// What is done next, with a stack of values.
+/// One operation on a stack of values.
 struct FormulaStep {
   enum class Kind { number, name, add, subtract, multiply, divide, negate, power, function };
   Kind kind = Kind::number;
@@ -41,14 +41,15 @@ Formula read_formula(std::string_view text);
 /// Throws FormulaError.
 std::vector<FormulaLine> read_lines(std::string_view text);
 
-/// The lines in an order in which each needs names that stand before it only. Throws FormulaError for a name
+/// The lines in an order in which each needs only names that stand before it. Throws FormulaError for a name
 /// that is defined twice, and for lines that need each other.
 std::vector<FormulaLine> in_order_of_need(const std::vector<FormulaLine>& lines);
 
-/// `name = stays_within(x, low, high)`: what has to be shown, whether or not anything needs the name.
+/// `name = stays_within(x, low, high)`: has to be shown, whether or not anything needs the name.
 bool is_limit(const FormulaLine& line);
 
-/// A line, no limit, that neither one of `results` nor a limit needs, or nullptr. The lines are in order.
+/// A line, not itself a limit, that neither one of `results` nor a limit needs, or nullptr. The lines are in
+/// order.
 const FormulaLine* unused_line(const std::vector<FormulaLine>& ordered,
                                const std::vector<std::string>& results);
 

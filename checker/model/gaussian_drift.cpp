@@ -204,7 +204,7 @@ Ball leaving_probability(const GaussianTerms& terms, std::size_t channels, const
                          const Ball& start_share) {
   const Ball count(static_cast<double>(channels));
   const Ball squared = square(Ball(terms.most_noise) / Ball(terms.deviation));
-  // By the expectation of exp(s |v|^2), which is at most (1 - 2 sigma^2 s)^(-channels/2), for the best s.
+  // From the expectation of exp(s |v|^2), which is at most (1 - 2 sigma^2 s)^(-channels/2), with the best s.
   const Ball longer =
       certainly_less(count, squared) ? exp(half * (count * (log(squared / count) + one) - squared)) : one;
   const Ball exponent(terms.exponent);

@@ -1,6 +1,6 @@
 // Tubes in Gaussian noise: with the level l of a state and W = exp(L l^2/R^2),
 //   E[W after a step; |v| <= V] <= kappa W + c_0
-// for all states of a tube, so that it is left seldom (docs/model-proof.md, section 11).
+// for all states of a tube, so that states rarely leave it (docs/model-proof.md, section 11).
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace veritrack::checker {
 
-/// True only when the inequality holds for all |xi| <= R: `step` is of F for |xi| <= R and |v| <= V, both
-/// scaled to 1, with so many channels of noise.
+/// True only when the inequality holds for all |xi| <= R: `step` is F for |xi| <= R and |v| <= V, both scaled
+/// to 1, with `channels` channels of noise.
 bool drift_is_bounded(const LengthBound& step, double radius, const GaussianTerms& terms,
                       std::size_t channels);
 
 /// The inequality on all phases and frequencies of all tubes of a set that has Gaussian terms; the shape is
-/// one, everything is defined, only angles turn, and angles are known modulo 2 pi. Objects otherwise.
+/// valid, everything is defined, only angles turn, and angles are known modulo 2 pi. Objects otherwise.
 bool is_seldom_left(const TrackedModel& model, const TubeSet& set, std::int64_t& cells,
                     Objections& objections);
 

@@ -1,4 +1,4 @@
-// How long a vector of ball polynomials can be.
+// Bounds on the length of a vector of ball polynomials.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace veritrack::checker {
 
-/// Bounds on |F(x, v, w; s, z)| for vectors F of ball polynomials: that of the linear part; of all other
-/// terms, of all degrees in x, v and w and each s^l z^m, the spectral norm of the coefficients, weighted as
-/// in Bombieri's norm; and the errors.
+/// Bounds on |F(x, v, w; s, z)| for vectors F of ball polynomials: the bound of the linear part; for all
+/// other terms, of each set of degrees in x, v and w and each s^l z^m, the spectral norm of the coefficients,
+/// weighted as in Bombieri's norm; and the errors.
 class LengthBound {
  public:
   /// Keeps no reference.
@@ -17,20 +17,21 @@ class LengthBound {
 
   /// True only when |F| <= bound for all |x| <= scale, |v| <= 1, |w| <= 1, and all s and z.
   [[nodiscard]] bool is_at_most(double bound, double scale) const;
-  /// Whether it is more what was cut off, which is less in smaller balls, than what is there at x = 0. Not
+  /// Whether the truncated part, which shrinks in smaller balls, exceeds what is present at x = 0. Not
   /// evidence.
   [[nodiscard]] bool is_cut_off() const;
-  /// The linear part, and bounds of what is not linear: of the terms without v and of the errors for |x| <=
+  /// The linear part, and bounds of the other parts: of the terms without v and of the errors for |x| <=
   /// scale, and of the terms with v, over |v|. Infinite when nothing is known.
   [[nodiscard]] const LinearLength& linear() const { return linear_; }
   [[nodiscard]] double without_noise(double scale) const;
   [[nodiscard]] double with_noise(double scale) const;
-  /// How much of the bound comes from the extent in s, and in z, about. Not evidence.
+  /// Approximately how much of the bound comes from the extent in s, and in z. Not evidence.
   [[nodiscard]] double by_phase() const { return by_phase_; }
   [[nodiscard]] double by_frequency() const { return by_frequency_; }
-  /// What was cut off. Not evidence by itself.
+  /// The truncated part. Not evidence by itself.
   [[nodiscard]] double error() const { return error_; }
-  /// Whether these say something: not where errors are far longer than what is to be bounded. Not evidence.
+  /// Whether these bounds are of use: not where errors are far longer than the bound to be shown. Not
+  /// evidence.
   [[nodiscard]] bool tells_extents(double radius) const { return error_ < 64.0 * radius; }
 
  private:

@@ -51,7 +51,7 @@ LinearLength::Gram LinearLength::gram_of(const std::vector<BallPolynomial>& vect
   for (std::size_t place = 0; place < kPlacesOfLinear; ++place) {
     terms[place] = linear_terms(vector, first, last, place);
     const double length = length_of(terms[place]);
-    // What is zero is left out.
+    // Zeros are left out.
     terms[place] = length > 0x1p-490 ? terms[place] : std::vector<double>();
     size += length;
   }
@@ -115,7 +115,7 @@ std::vector<double> LinearLength::factors(const Shares& shares, double scale) co
   return result;
 }
 
-/// Where the largest eigenvalue is about the least, in the middle of the part: a proposal.
+/// The shares for which the largest eigenvalue is approximately least, in the middle of the part: a proposal.
 LinearLength::Shares LinearLength::proposed_shares(double scale) const {
   constexpr int kSections = 16;
   constexpr int kSectionsInside = 14;

@@ -25,7 +25,7 @@ bool are_alike(const TubeSet& around, const TubeSet& inner) {
   return alike;
 }
 
-/// Whether factor b - a is positive definite: of lower triangles.
+/// Whether factor b - a is positive definite, from lower triangles.
 bool is_below(const std::vector<BallPolynomial>& a, const std::vector<BallPolynomial>& b, double factor,
               std::size_t states) {
   const PlaceMatrix wide = sum(place_matrix(states, states), symmetric_of(b, states), BallPolynomial(factor));
@@ -42,7 +42,7 @@ bool is_entered(const TrackedModel& model, const TubeSet& around, const TubeSet&
   }
   const std::size_t states = model.recursion->filtered();
   const VectorMonomials monomials(states);
-  // The estimates of the one, with the bounds of the other.
+  // The estimates of one tube, with the bounds of the other.
   std::vector<PhaseTube> mixed = around.tubes;
   std::vector<FirstGrid> grids;
   for (std::size_t i = 0; i < mixed.size(); ++i) {

@@ -12,22 +12,22 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Of a tube: a filter's with bounds of its covariance has those of the estimate alone.
+/// The most states of a tube. For a filter with bounds of its covariance, only those of the estimate count.
 constexpr std::size_t kMostStates = 16;
 
 std::size_t states_of_tubes(const ModelRecursion& recursion, bool bounds_covariance) {
   return bounds_covariance ? recursion.filtered() : recursion.states();
 }
 
-/// All sets, in the order of the certificate, by their names; `failed`: those of which one is not verified.
-/// With a part of the verification for each.
+/// All sets, in the order of the certificate, by their names; `failed`: the names with a set that is not
+/// verified. Adds a part of the verification for each.
 struct ReadSets {
   std::map<std::string, TubeFamily> families;
   std::set<std::string> failed;
 };
 
-/// The set in whose lowest levels part number `number` of the long run is, or none: that they are for the
-/// same amplitudes is checked of whole families (verified_sets).
+/// The set in whose lowest levels part number `number` of the long run is, or none. That they are for the
+/// same amplitudes is checked for whole families (verified_sets).
 const TubeSet* set_around(const std::map<std::string, TubeFamily>& families, std::size_t number) {
   const auto found = families.find("assumed");
   return found != families.end() && number < found->second.sets.size() ? &found->second.sets[number]
@@ -89,7 +89,7 @@ ReadSets read_sets(const Tree& tubes, const TrackedModel& tracked, const ModelDe
   return read;
 }
 
-/// The families of which all sets are verified, and which are for all amplitudes of the design.
+/// The families whose sets are all verified and together cover all amplitudes of the design.
 std::map<std::string, TubeFamily> verified_sets(const Tree& tubes, const TrackedModel& tracked,
                                                 const ModelDesign& design, Verification& result) {
   ReadSets read = read_sets(tubes, tracked, design, result);
@@ -126,7 +126,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   }
   result.parts.push_back({"design", objections});
   if (!objections.empty()) {
-    return;  // nothing is said of what is no design
+    return;  // no statement is made about an invalid design
   }
   for (const Tree& derivation : certificate.at("derivations").elements()) {
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});

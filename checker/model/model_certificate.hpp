@@ -1,4 +1,4 @@
-// Certificates for trackers that are written down as recursions.
+// Certificates for trackers that are given as recursions.
 #pragma once
 
 #include "checker/document/parts.hpp"

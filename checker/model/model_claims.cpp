@@ -45,7 +45,7 @@ std::size_t first_level(const PhaseTube& /*tube*/) {
   return 0;
 }
 
-/// A decimal that the claim writes: what is said of a value, exactly.
+/// A decimal that the claim writes: the statement on a value, exactly.
 Ball written(const Tree& claim, const char* name) {
   constexpr std::size_t kLongest = 40;
   const std::string& text = claim.at(name).text();
@@ -113,7 +113,7 @@ std::string ModelClaims::short_text(const std::string& id) const {
            design_->captured_within->text + " samples" +
            in_lock(id, ", and there the frequency error stays at or below ");
   }
-  // Asked only of claims about lock: what is asked for counts as read.
+  // Read only for claims about lock, because every value that is asked for counts as read.
   const auto in_set = [&] { return in_lock(id, " in which the frequency error stays at or below "); };
   if (id == kLargestNoise) {
     return "the tracker tolerates noise up to " + design_->largest_noise->text +
@@ -289,7 +289,7 @@ Claim ModelClaims::size(const Tree& claim) const {
   const std::string& id = claim.at("id").text();
   const Ball error = written(claim, "frequency_error");
   Claim found;
-  // A set that is never left, and tolerates at least so much.
+  // A set that is never left, and tolerates at least this much.
   const auto tolerates = [&](double (TubeFamily::*tolerated)() const, const Ball& required) {
     return std::any_of(sets_->begin(), sets_->end(), [&](const auto& set) {
       return set.first != kLongRun && !set.second.is_gaussian() && covers_all(set.second) &&
@@ -348,7 +348,7 @@ bool ModelClaims::is_seldom_left(const TubeFamily* set, const Ball& deviation, c
   if (design_->start_within.empty()) {
     return is_enough(half);
   }
-  // How far inside starts have to be, about: what they add is exp(L (share^2 - 1)).
+  // Approximately how deep inside starts have to be: they add exp(L (share^2 - 1)).
   const Ball left = (probability - (leaves(zero) - exp(-Ball(terms.exponent)))) * Ball(0.9999);
   if (!certainly_positive(left)) {
     return false;
@@ -406,7 +406,8 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   bool certain =
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
   if (const Tree* settled = claim.find("settled_frequency_error")) {
-    // cannot bind (bound): it decides only whether the sentence also says what is claimed, and checked below.
+    // cannot bind (bound): it decides only whether the sentence also states the claim, which is checked
+    // below.
     if (certainly_less(written(claim, "settled_frequency_error"), bound)) {
       found.statement += ", and at or below " + units_.at_most(settled->text()) + " in the long run";
     }
@@ -516,7 +517,7 @@ Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
                        units_.at_most(claim.at("reach_frequency_error").text()) +
                        " contains frequency errors up to " + units_.at_least(errors->text()) +
                        " at every phase";
-    // A set for some noise is one without noise, too.
+    // A set for some noise is also one without noise.
     const auto contains = [&](const char* name) {
       const TubeFamily* set = find(name, part);
       return set != nullptr && !set->is_gaussian() && of(*set).contains_errors(reach) &&

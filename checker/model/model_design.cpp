@@ -66,8 +66,8 @@ void read_amplitude(const Tree& amplitude, ModelDesign& design, Objections& obje
   design.largest_amplitude = largest;
 }
 
-/// The value of a formula that stands in sentences as it is written. What is not computed with, a comment,
-/// would stand there, too.
+/// The value of a formula that stands in sentences as it is written. A comment, which is not part of the
+/// computation, would stand there, too.
 Ball value_of_told(const Tree& formula, ModelRecursion& recursion, Objections& objections) {
   const std::string& text = formula.text();
   if (text.find_first_of("#\n\r") != std::string::npos) {
@@ -143,7 +143,7 @@ void read_noise(const Tree& assume, ModelDesign& design, Objections& objections)
   }
 }
 
-/// What is required of a frequency may be in Hz.
+/// Requirements on a frequency may be in Hz.
 RequiredNumber required_number(const std::string& name, const Tree& number, const Tree& assume,
                                Objections& objections) {
   if (name == "largest_slew_at_least") {

@@ -1,4 +1,4 @@
-// The design of a certificate for a tracker that is written down as a recursion, and the words for it.
+// The design of a certificate for a tracker that is given as a recursion, and the words for it.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,24 @@
 
 namespace veritrack::checker {
 
-/// What a key of [require] asks: the decimal as written, and it with the double nearest to it.
+/// The number of a key of [require]: the decimal as written, and a ball with it and the double nearest to it.
 struct RequiredNumber {
   std::string text;
   Ball value;
 };
 
-/// In rad/sample and signal units: each number both as the decimal and as the double nearest to it.
+/// In rad/sample and signal units. Each number stands for the decimal and for the double nearest to it.
 struct ModelDesign {
   Ball amplitude;                 ///< of each sample: all that it may have
   bool amplitude_varies = false;  ///< from sample to sample, in that range; otherwise it is constant
-  /// It is constant, and some number from the least to the largest one.
+  /// The amplitude is constant, and some number from the least to the largest one.
   bool is_constant_in_range = false;
   Ball least_amplitude, largest_amplitude;
   Ball lowest, highest;  ///< of the frequency
   Ball band_unit;        ///< in which the design writes them: Hz, or 1
   Ball noise;            ///< bound on the length of the error of a sample, all channels together
-  /// Gaussian noise in place of that bound: its deviation in each channel, signal units, and for how many
-  /// samples a probability is asked.
+  /// Gaussian noise in place of that bound: its deviation in each channel, signal units, and the number of
+  /// samples for which a probability is asked.
   std::optional<Ball> deviation;
   Ball samples;
   Ball slew;                       ///< rad/sample per sample
@@ -45,12 +45,12 @@ struct ModelDesign {
 /// The deviation over the amplitude for this SNR in dB, 10 log10(amplitude^2/(2 deviation^2)).
 Ball deviation_at(const Ball& decibels);
 
-/// Reads the members "assume" and "require" of a design. Objects unless 0 <= lowest <= highest <= 3.142
-/// (pi, as one may write it), amplitudes are positive and those of a range go from low to high, and nothing
-/// that has to be is negative.
+/// Reads the members "assume" and "require" of a design. Objects unless 0 <= lowest <= highest <= 3.142 (pi,
+/// as one may write it), amplitudes are positive and those of a range go from low to high, and no number is
+/// negative that must not be.
 ModelDesign read_model_design(const Tree& design, ModelRecursion& recursion, Objections& objections);
 
-/// A part of the band: what a claim writes, and it in rad/sample.
+/// A part of the band: as a claim writes it, and in rad/sample.
 struct BandPart {
   std::string from, to;
   Ball lowest, highest;
@@ -59,7 +59,7 @@ struct BandPart {
 /// The hypotheses of sentences.
 class ModelWords {
  public:
-  /// `part`: of the band, to which the sentences are limited; none for the whole band.
+  /// `part`: the part of the band to which the sentences are limited; none for the whole band.
   /// `bounds_covariance`: the sets are those of a filter's estimate, with bounds of its covariance.
   explicit ModelWords(const Tree& design, std::optional<BandPart> part = std::nullopt,
                       bool bounds_covariance = false)
@@ -73,11 +73,11 @@ class ModelWords {
   [[nodiscard]] std::string assumed_tone(bool moves) const;
   [[nodiscard]] std::string assumed_noise(bool is_noisy) const;
   [[nodiscard]] std::string assumed_start(const std::string& set) const;
-  /// A start in the set of that name.
+  /// For a start in the set of that name.
   [[nodiscard]] std::string started_in(const std::string& set) const;
   /// The state that the tracker is started in.
   [[nodiscard]] std::string started_exactly() const;
-  /// The same, for statements that depend on how far inside a start is.
+  /// The same, for statements that depend on how deep inside the set a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const;
   /// ", with Gaussian measurement noise of mean zero, ...": the assumed noise, or with this SNR in dB.
   [[nodiscard]] std::string gaussian_noise(const std::string& decibels = {}) const;

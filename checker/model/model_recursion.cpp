@@ -17,13 +17,13 @@ std::vector<std::string> texts_of(const Tree& list) {
   return texts;
 }
 
-/// A ball that is wider by 2^-51 of its size: the exact result of an operation, and what a double makes of
-/// it, with functions within a unit in the last place.
+/// A ball that is wider by 2^-51 of its size: it contains the exact result of an operation and the result in
+/// doubles, with functions within a unit in the last place.
 Ball as_in_doubles(const Ball& exact) {
   return exact + Ball::within(exact * Ball(0x1p-51)) + Ball::within(Ball(0x1p-1070));
 }
 
-/// What a literal stands for: the decimal, and the double nearest to it, which may be the same.
+/// The numbers that a literal stands for: the decimal, and the double nearest to it, which may be the same.
 Ball literal(const std::string& text) {
   const Ball decimal = from_decimal(text);
   return certainly_equal(decimal, Ball(decimal.near())) ? decimal : as_in_doubles(decimal);

@@ -15,13 +15,13 @@
 
 namespace veritrack::checker {
 
-/// Formulas whose numbers and names are looked up, and the constants that they need.
+/// Formulas with their numbers and names looked up, and the constants that they need.
 class ModelRecursion {
  public:
   /// From the member "model" of a design. Throws FormulaError or Malformed.
   explicit ModelRecursion(const Tree& model);
 
-  /// What is wrong with it as a design, which could be read.
+  /// Objections to it as a design, once it could be read.
   [[nodiscard]] const Objections& objections() const { return objections_; }
   [[nodiscard]] std::size_t states() const { return state_names_.size(); }
   [[nodiscard]] std::size_t samples() const { return sample_names_.size(); }
@@ -29,7 +29,7 @@ class ModelRecursion {
   /// Whether a state is an angle.
   [[nodiscard]] const std::vector<bool>& is_angle() const { return is_angle_; }
 
-  /// The value of a formula of parameters and numbers, exactly and as doubles compute it. Throws
+  /// The value of a formula in parameters and numbers, exactly and as computed in doubles. Throws
   /// FormulaError.
   [[nodiscard]] Ball constant_value(const std::string& formula);
 
@@ -40,9 +40,9 @@ class ModelRecursion {
                                          const std::vector<Scalar>& sample) const {
     return filtered_ == 0 ? next_of_step(state, sample) : next_of_filter(state, sample);
   }
-  /// How many states a filter estimates; 0 when the tracker is none.
+  /// The number of states that a filter estimates; 0 when the tracker is not a filter.
   [[nodiscard]] std::size_t filtered() const { return filtered_; }
-  /// Of a filter at an estimate, with a sample.
+  /// The quantities of a filter at an estimate, with a sample.
   template <typename Scalar>
   struct FilterParts {
     std::vector<Scalar> predicted;                   ///< x^ = f(x)
@@ -72,7 +72,7 @@ class ModelRecursion {
 
  private:
   using Matrix = std::vector<std::vector<Formula>>;
-  /// Where names stand: variable number s for a slot s of 0 or more, constant number -1 - s below.
+  /// The places of names: variable number s for a slot s of 0 or more, constant number -1 - s below.
   using Slots = std::map<std::string, int>;
 
   void read_parameters(const Tree& parameters);
@@ -93,7 +93,7 @@ class ModelRecursion {
                             : Scalar(constants_[static_cast<std::size_t>(-1 - leaf.slot)]);
     });
   }
-  /// The results of the lines. Where a limit is not known to be kept, nothing is known of them.
+  /// The results of the lines; unknown where a limit is not certain to be kept.
   template <typename Scalar>
   [[nodiscard]] std::vector<Scalar> results(std::vector<Scalar> variables) const {
     for (const Formula& line : lines_) {
@@ -130,10 +130,10 @@ class ModelRecursion {
   std::vector<Ball> constants_;
   std::vector<Formula> lines_;  ///< of the step, or of the filter's prediction
   std::vector<std::size_t> results_;
-  std::vector<std::size_t> limits_;  ///< lines that have to be shown, whatever needs them
+  std::vector<std::size_t> limits_;  ///< lines that have to be shown, whether or not anything needs them
   Formula frequency_;
   std::vector<Formula> signal_;
-  // Of a filter: how many states it estimates (0 for none), and its formulas of these.
+  // For a filter: the number of states that it estimates (otherwise 0), and its formulas for them.
   std::size_t filtered_ = 0;
   std::vector<Formula> measure_;
   Matrix process_noise_, measurement_noise_, jacobian_;
@@ -206,8 +206,7 @@ std::vector<std::vector<Scalar>> ModelRecursion::predicted_covariance(
     const std::vector<std::vector<Scalar>>& f, const std::vector<std::vector<Scalar>>& p) const {
   const std::size_t n = f.size();
   const Scalar nothing(Ball(0.0));
-  // F P first: its sums are of fewer terms, and their bounds are sharper, than those of all products of
-  // three.
+  // F P first: its sums have fewer terms, and sharper bounds, than sums over all products of three.
   std::vector<std::vector<Scalar>> f_p(n, std::vector<Scalar>(n, nothing));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t l = 0; l < n; ++l) {

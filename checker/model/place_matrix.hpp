@@ -17,18 +17,18 @@ PlaceMatrix sum(const PlaceMatrix& a, const PlaceMatrix& b, const BallPolynomial
 PlaceMatrix mirrored(const PlaceMatrix& a);
 /// Of a lower triangle, row by row.
 PlaceMatrix symmetric_of(const std::vector<BallPolynomial>& triangle, std::size_t rows);
-/// A lower triangular L with L L' = A; nothing is known of it unless the pivots are certainly positive.
+/// A lower triangular L with L L' = A; unknown unless the pivots are certainly positive.
 PlaceMatrix root_of(const PlaceMatrix& a);
 /// L^-1 b.
 std::vector<BallPolynomial> forward(const PlaceMatrix& l, const std::vector<BallPolynomial>& b);
-/// The inverse of a symmetric matrix of one or two rows; nothing is known of it unless it is certainly
-/// positive definite.
+/// The inverse of a symmetric matrix of one or two rows; unknown unless the matrix is certainly positive
+/// definite.
 PlaceMatrix positive_inverse(const PlaceMatrix& a);
 
-/// The matrix in the middle of the cell, about: a proposal.
+/// Approximately the matrix in the middle of the cell: a proposal.
 PlaceMatrix middle_of(const PlaceMatrix& a);
-/// The least eigenvalue of a in the middle of the cell in units of a positive definite matrix, about; minus
-/// infinity when there is none. Not evidence.
+/// Approximately the least eigenvalue of a in the middle of the cell, in units of a positive definite matrix;
+/// minus infinity when there is none. Not evidence.
 double near_least_eigenvalue(const PlaceMatrix& a, const PlaceMatrix& unit);
 
 /// The inverse of the Cholesky factor in doubles, row by row; without rows when there is none. Not evidence.

@@ -3,7 +3,8 @@
 
 namespace veritrack::checker {
 
-/// About where a function that falls and then rises on [low, high] is least, by so many golden sections.
+/// Approximately where a function that falls and then rises on [low, high] is least, by `sections` golden
+/// sections.
 template <typename Function>
 double place_of_least(double low, double high, int sections, const Function& function) {
   constexpr double kRatio = 0.6180339887498949;

@@ -63,8 +63,8 @@ CosineSine::CosineSine(const Ball& constant, const Ball& by_phase, const Ball& b
   const double near_c = c.near();
   const double near_s = s.near();
   const double size = bound_on(std::abs(a) + std::abs(b));
-  // The slopes, of which the function is Lipschitz with constant 1, and the derivatives, each of which stands
-  // with a term of at most size^k/k!, all of them together with exp(size) at most; the constant itself.
+  // The slopes, in which the function is Lipschitz with constant 1; the derivatives, each with a factor of at
+  // most size^k/k!, all of them together at most exp(size); and the constant itself.
   const Ball slopes = abs(by_phase - Ball(a)) + abs(by_frequency - Ball(b));
   const Ball derivatives = max(abs(c - Ball(near_c)), abs(s - Ball(near_s))) * exp(Ball(size));
   const double error = (slopes + derivatives).upper_double();

@@ -1,5 +1,4 @@
-// Functions of the place (s, z) in a cell alone, in an array: what the sums of tubes are made of, of which
-// there are very many.
+// Functions of the place (s, z) in a cell alone, in an array. Sums over tubes consist of very many of them.
 #pragma once
 
 #include <array>
@@ -25,17 +24,17 @@ struct CosineSine {
   CosineSine(const Ball& constant, const Ball& by_phase, const Ball& by_frequency);
 };
 
-/// y^d for d = 0, 1, ...: so many of them, where y is within `error` of middle + half_width z.
+/// The first `count` powers y^d, d = 0, 1, ..., where y is within `error` of middle + half_width z.
 std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, double error,
                                              std::size_t count);
 
 /// x y, where y is a function of z alone.
 PlacePolynomial product_with_power(const PlacePolynomial& x, const PlacePolynomial& y);
 
-/// By so many roundings each factor of a linear combination may be wrong.
+/// Each factor of a linear combination may be wrong by this many roundings.
 inline constexpr std::size_t kRoundingsOfFactor = 8;
 
-/// The sum of factors times functions, of which there are as many.
+/// The sum of factors times functions; there are as many factors as functions.
 BallPolynomial linear_combination(const std::vector<double>& factors,
                                   const std::vector<PlacePolynomial>& functions);
 

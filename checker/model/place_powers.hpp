@@ -15,7 +15,7 @@ struct Powers {
   int of_s = 0;
   int of_z = 0;
 };
-/// Those of a coefficient with this number.
+/// The powers of the coefficient with this number.
 inline Powers powers_at(std::size_t place) {
   int degree = 0;
   while (places_up_to(degree) <= place) {

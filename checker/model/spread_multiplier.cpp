@@ -168,8 +168,8 @@ double near_best_multiplier(const PlaceMatrix& spread, const std::vector<BallPol
   const auto share = [](double logit) { return 1.0 / (1.0 + std::exp(-logit)); };
   constexpr double kLow = -4.5;
   constexpr double kHigh = 6.0;
-  // What is least over the shares falls and then rises with mu. One after the other does not end there: the
-  // valley is narrow, along neither of them, and has edges.
+  // The minimum over the shares falls and then rises with mu. Searching one after the other does not end
+  // there: the valley is narrow, along neither of them, and has edges.
   const bool is_shared = length.has_others() && !(of_gaussian > 0.0);
   const auto best_logit = [&](const StackedLength::Turned& of_mu, double middle, double width, int sections) {
     return place_of_least(middle - width, middle + width, sections,

@@ -26,7 +26,7 @@ BallPolynomial without_turns(const BallPolynomial& angle) {
   return std::isfinite(turns) && turns != 0.0 ? angle - BallPolynomial(Ball(turns) * two * pi()) : angle;
 }
 
-/// What depends on s and z alone, without the error.
+/// The part that depends on s and z alone, without the error.
 BallPolynomial place_part(const BallPolynomial& polynomial) {
   const std::span<const double> block = polynomial.block(0, 0);
   std::array<double, BallPolynomial::kPlaces> coefficients{};
@@ -44,7 +44,7 @@ double length_by_components(const std::vector<BallPolynomial>& vector) {
   return bound_on(std::sqrt(bound_on(squares)));
 }
 
-/// One that is hardly larger than it has to be; `near`: a guess. Infinite when nothing is known.
+/// A bound that is hardly larger than necessary; `near`: a guess. Infinite when nothing is known.
 double length_of_rest(const std::vector<BallPolynomial>& vector, double near) {
   const double most = length_by_components(vector);
   if (!(most > 0.0) || !(most < kNothingKnown)) {
@@ -82,10 +82,10 @@ class FollowedStart {
     shape_only_.curve.clear();
   }
 
-  /// In the tube in time, with errors of the frequency as small as is said.
+  /// In the tube in time, with errors of the frequency as small as stated.
   [[nodiscard]] bool gets_in() {
     begin();
-    constexpr double kMuch = 64.0;  // of the tube: what is wider does not come back
+    constexpr double kMuch = 64.0;  // of the tube: wider sets of states do not come back
     while (radius_ <= kMuch * tube_->levels.front() && has_small_error()) {
       if ((sample_ % kBetweenLooks == 0 || sample_ == start_->samples) && is_inside()) {
         return true;
@@ -216,7 +216,7 @@ bool is_captured(const TrackedModel& model, const TubeSet& set, const StartClaim
     PartAnswer answer;
     if (!followed.gets_in()) {
       answer.open = questions;
-      // Of the phase of a late sample the wider of both makes the errors.
+      // The wider of both determines the errors from the phase of a late sample.
       constexpr double kTurn = 6.283;
       answer.halve_frequencies =
           static_cast<double>(followed.sample()) * part.half_z * set.tubes[number].half_width >

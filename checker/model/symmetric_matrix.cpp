@@ -27,8 +27,8 @@ double SymmetricMatrix::trace() const {
 
 // When the factorisation of A in floating point comes to its end, A + E is positive semidefinite for some E
 // with |E| <= g/(1 - g) trace A, where g = (n + 2) 2^-52 in any mode of rounding (Demmel; Higham, Accuracy
-// and Stability, 10.1). Here A = (bound - shift) I - matrix, and the shift is more than that, and than what
-// the diagonal loses by rounding and underflows take away.
+// and Stability, 10.1). Here A = (bound - shift) I - matrix, and the shift is more than that, and more than
+// the losses of the diagonal by rounding and underflow.
 bool certainly_bounded(const SymmetricMatrix& matrix, double bound CHECKER_DECLARED_PLACE) {
   CHECKER_IF_FORCED
   const std::size_t n = matrix.size();

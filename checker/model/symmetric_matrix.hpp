@@ -28,7 +28,7 @@ class SymmetricMatrix {
       entries_[k] += factor * other.entries_[k];
     }
   }
-  /// An upper bound of the square root of the sum of all squares, but for rounding.
+  /// An upper bound of the square root of the sum of all squares, apart from rounding.
   [[nodiscard]] double length() const;
   [[nodiscard]] double trace() const;
 
@@ -37,14 +37,14 @@ class SymmetricMatrix {
   std::vector<double> entries_;
 };
 
-/// True only when no eigenvalue of the matrix exceeds `bound`; false, too, with anything that is not finite.
+/// True only when no eigenvalue of the matrix exceeds `bound`; also false when anything is not finite.
 bool certainly_bounded(const SymmetricMatrix& matrix, double bound CHECKER_PLACE);
 
-/// The largest eigenvalue, about: a proposal.
+/// Approximately the largest eigenvalue: a proposal.
 double near_largest_eigenvalue(const SymmetricMatrix& matrix);
 
-/// At least the largest eigenvalue of a matrix that is positive semidefinite but for rounding; infinite when
-/// nothing is known.
+/// At least the largest eigenvalue of a matrix that is positive semidefinite apart from rounding; infinite
+/// when nothing is known.
 double eigenvalue_bound(const SymmetricMatrix& matrix);
 
 }  // namespace veritrack::checker

@@ -34,7 +34,7 @@ TubePart part_of_tube(const Crossing& crossing, const TubePart& part, const Phas
   return result;
 }
 
-/// Whether the bounds of the covariance of the one, narrower by the margin, are between those of the other.
+/// Whether the covariance bounds of one tube, narrower by the margin, are between those of the other.
 bool fits_covariance(const Crossing& crossing, const TubePart& part, double margin) {
   const TubeOver from(*crossing.from, part_of_tube(crossing, part, *crossing.from), 0);
   const TubeOver to(*crossing.to, part_of_tube(crossing, part, *crossing.to), 0);
@@ -50,7 +50,7 @@ bool fits_covariance(const Crossing& crossing, const TubePart& part, double marg
          is_below(to.covariance_low, from.covariance_low);
 }
 
-/// Of states of the one, in the coordinates of the other: U'^-1 (C - C' + radius U xi).
+/// States of one tube in the coordinates of the other: U'^-1 (C - C' + radius U xi).
 std::vector<BallPolynomial> in_other_coordinates(const Crossing& crossing, const TubePart& part,
                                                  double radius, const VectorMonomials& monomials) {
   const TubeOver from(*crossing.from, part_of_tube(crossing, part, *crossing.from), 0);

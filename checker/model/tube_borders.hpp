@@ -1,10 +1,10 @@
-// Tubes of a frequency that moves: how levels of neighbouring cells compare, and what a state is worth in the
-// next cell when the frequency has crossed the border.
+// Tubes of a frequency that moves: how levels of neighbouring cells compare, and which level a state has in
+// the next cell when the frequency has crossed the border.
 //
 // The level r of a state in a cell, relative to R_0 of that cell, falls by shrinking_j in a sample while the
 // frequency stays in the cell, and by crossing_j when it crosses, as long as r is between the levels j + 1
-// and j. Cells have the same relative levels, up to 2^-38; so that a relative level between the least ones of
-// all cells is between the levels of each, the lower ends of what is shown are a little lower than R_{j+1}.
+// and j. Cells have the same relative levels, up to 2^-38. The statements are shown from a little below
+// R_{j+1}, so that a relative level between the least ones of all cells is between the levels of each.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace veritrack::checker {
 
-/// The least of R_j/R_0 over all tubes, rounded down: of each j.
+/// For each j, the least of R_j/R_0 over all tubes, rounded down.
 std::vector<Ball> common_levels(const TubeSet& set);
 
 /// Objects unless the tubes have the same number of levels, with the same ratios up to 2^-38, and there is a

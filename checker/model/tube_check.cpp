@@ -17,7 +17,7 @@ namespace veritrack::checker {
 namespace {
 
 /// Between the levels number j and j + 1, with a bound on F for |xi| <= R_j. `low_end`: R_{j+1}, or a little
-/// less. `bound_up_to` bounds F for |xi| up to another radius: what is cut off is less there.
+/// less. `bound_up_to` bounds F for |xi| up to another radius, where truncation is less.
 bool shrinks(const LengthBound& step, const PhaseTube& tube, std::size_t j, double low_end,
              const std::function<LengthBound(double radius)>& bound_up_to) {
   constexpr double kDown = 1.0 - 0x1p-48;
@@ -52,24 +52,24 @@ double low_end_of(const TubeSet& set, const PhaseTube& tube, std::size_t j, cons
                                  : tube.levels[j + 1];
 }
 
-/// Whether what was cut off is why a pair of levels is not certain: it must not be much more than what a step
-/// takes off the lower one. Not evidence.
+/// Whether truncation is the reason why a pair of levels is not certain: it must not be much more than the
+/// amount by which a step lowers the lower level. Not evidence.
 bool fails_by_error(const LengthBound& bound, double shrinking, double low_end) {
   constexpr double kShare = 0.25;
   return bound.error() > kShare * (1.0 - shrinking) * low_end;
 }
 
-/// What is cut off of functions of the phases here and a sample later: the wider of both makes it.
-/// Frequencies count more, as curve and shape depend on them besides.
+/// The truncation of functions of the phases here and a sample later: the wider of both determines it.
+/// Frequencies count more, because curve and shape also depend on them.
 bool is_wider_in_frequency(const PhaseTube& tube, const TubePart& part) {
   constexpr double kMore = 3.0;
   constexpr double kTurn = 6.283;
   return kMore * part.half_z * tube.half_width > kTurn * part.half_turn;
 }
 
-/// Whether halving the frequencies of a part leaves less of what is cut off than halving its phases does.
-/// Both are tried once for all parts of the same widths, in the middle of a turn: whichever part asks first,
-/// the answer is the same. A guess, as everything that chooses parts.
+/// Whether halving the frequencies of a part reduces truncation more than halving its phases does. Both are
+/// tried once for all parts of the same widths, in the middle of a turn: whichever part asks first, the
+/// answer is the same. A guess, as everything that chooses parts.
 class TriedHalvings {
  public:
   /// `map_over` is the step for the pair of levels of the tube, both with their numbers.
@@ -102,7 +102,7 @@ class TriedHalvings {
   std::map<std::tuple<std::size_t, std::size_t, double, double>, bool> tried_;
 };
 
-/// Of a filter: with the largest radius also that the bounds of the covariance are kept.
+/// For a filter, with the largest radius: also whether the bounds of the covariance are kept.
 PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterStep& step,
                          const std::vector<Ball>& common, const std::vector<std::size_t>& pairs) {
   const PhaseTube& tube = set.tubes[number];
@@ -113,14 +113,14 @@ PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterSte
   }
   double by_phase = 0.0;
   double by_frequency = 0.0;
-  bool lacks_bounds = false;  // what the widths do to these is not known
+  bool lacks_bounds = false;  // the effect of the widths on these is unknown
   bool is_telling = true;
   for (const std::size_t j : pairs) {
     const double radius = tube.levels[j];
     const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set.noise)); };
     const LengthBound bound = bound_up_to(radius);
     const double low_end = low_end_of(set, tube, j, common);
-    // Of the long run, bounds of the covariance are kept for estimates in another tube (long_run.hpp).
+    // In the long run, bounds of the covariance are kept for estimates in another tube (long_run.hpp).
     const bool has_bounds = tube.entry || j > 0 || step.keeps_covariance(radius, {set.margin, 1.0});
     if (!shrinks(bound, tube, j, low_end, bound_up_to) || !has_bounds) {
       answer.open.push_back(j);

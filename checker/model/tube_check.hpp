@@ -1,4 +1,4 @@
-// Is a set of tubes one that the tracker never leaves, and what follows from that?
+// Does the tracker never leave a set of tubes, and what follows from that?
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ class PhaseTubeCheck {
 
   /// For all phases, all frequencies of the cells, |v| <= noise and a frequency that moves by at most the
   /// slew: |F| <= shrinking_j r for all |xi| <= r, for all r from R_{j+1} to R_j; with one level, |F| <=
-  /// shrinking_0 R_0 for |xi| <= R_0. (A bound that is made of terms of degree a in xi times the a-th power
-  /// of the scale, and an error that is kept, is convex in the scale: the ends decide, if need be those of
-  /// two parts of the interval, with a bound for each.) With slew, also the
-  /// borders of the cells, which must be in order (tube_borders.hpp). The shape is one, everything is
-  /// defined, only angles turn, and angles are known modulo 2 pi.
+  /// shrinking_0 R_0 for |xi| <= R_0. (A bound that consists of terms of degree a in xi times the a-th power
+  /// of the scale, and a fixed error, is convex in the scale: the ends decide, if need be those of two parts
+  /// of the interval, with a bound for each.) With slew, also the borders of the cells, which must be in
+  /// order (tube_borders.hpp). The shape is valid, everything is defined, only angles turn, and angles are
+  /// known modulo 2 pi.
   [[nodiscard]] bool is_never_left(Objections& objections) const;
 
   /// |h - omega| < bound, or <= bound, at all states of the level with this number.
@@ -39,7 +39,7 @@ class PhaseTubeCheck {
   [[nodiscard]] bool contains_errors(const Ball& reach) const;
   /// The mean of h - omega over the phase, for every frequency and any states of level R_m.
   [[nodiscard]] bool mean_error_is_between(const Ball& low, const Ball& high) const;
-  /// The greatest h - omega less the least one over the phase, for every frequency and any states of level
+  /// The greatest h - omega minus the least one over the phase, for every frequency and any states of level
   /// R_m.
   [[nodiscard]] bool error_varies_by_at_most(const Ball& most) const;
   /// |U^-1 d| <= share R_0 for all d with |d_i| <= deviations_i.
@@ -48,8 +48,8 @@ class PhaseTubeCheck {
  private:
   [[nodiscard]] bool error_is_within(const std::function<std::size_t(const PhaseTube&)>& level,
                                      const Ball& bound, bool strictly) const;
-  /// Whether the answer holds for all frequencies: asked of h - omega on all parts of a turn, for some of
-  /// them; `without_common`: less a function of the frequency.
+  /// Whether the answer is true for all frequencies: it is asked about h - omega on all parts of a turn, for
+  /// some frequencies at a time; `without_common`: minus a function of the frequency.
   [[nodiscard]] bool holds_for_turns(
       const std::function<bool(const std::vector<BallPolynomial>& errors)>& holds, bool without_common) const;
 
@@ -65,8 +65,8 @@ bool has_known_angles(const TrackedModel& model, const TubeSet& set, Objections&
 inline std::size_t last_level(const PhaseTube& tube) {
   return tube.levels.size() - 1;
 }
-/// After how many samples a state of level R_0 of this tube of the set is at level R_j for ever: of all tubes
-/// that the frequency moves through.
+/// The number of samples after which a state of level R_0 of this tube of the set stays at level R_j for
+/// ever, over all tubes that the frequency moves through.
 Ball samples_to_level(const TubeSet& set, const PhaseTube& tube, std::size_t level);
 
 }  // namespace veritrack::checker

@@ -11,9 +11,9 @@ namespace veritrack::checker {
 namespace {
 
 constexpr int kMostHalvings = 40;
-/// The middle of a part is asked after every so many halvings.
+/// The middle of a part is asked each time it has been halved this many times.
 constexpr int kBetweenMiddles = 3;
-/// After so many halvings of one direction the other one is halved, whatever the answers say: they are
+/// After this many halvings in one direction the other one is halved, whatever the answers suggest: they are
 /// guesses.
 constexpr int kMostAlike = 6;
 
@@ -26,14 +26,14 @@ struct OpenPart {
   int alike = 0;
 };
 
-/// The last part for which the answer to some questions was certain. Its neighbours take about as small ones,
-/// so that parts that are a little larger are halved before they are asked. Much larger ones are asked: what
-/// is hard at one place need not be everywhere.
+/// The last part for which the answer to some questions was certain. Its neighbours need parts of about the
+/// same size, so that parts a little larger are halved before they are asked. Much larger ones are asked: a
+/// statement that is hard at one place need not be hard everywhere.
 struct LastCertain {
   std::vector<std::size_t> questions;
   TubePart part;
 
-  /// By frequency, or by phase, for these questions; nothing where a part is not larger.
+  /// Whether to halve by frequency, or by phase, for these questions; empty where a part is not larger.
   [[nodiscard]] std::optional<bool> halving_of(const OpenPart& here) const {
     constexpr double kMuch = 4.0;
     const double ratio = (here.part.half_turn / part.half_turn) * (here.part.half_z / part.half_z);
@@ -80,7 +80,7 @@ bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, cons
         (is_time && !ask(tube, here.part.middle(), answer.open).open.empty())) {
       return false;
     }
-    // Where it is not known what helps, both directions take their turns.
+    // Where the better direction is unknown, both take turns.
     const bool by_frequency = here.alike == kMostAlike
                                   ? !here.was_by_frequency
                                   : answer.halve_frequencies.value_or(here.halvings % 2 == 0);
@@ -92,7 +92,7 @@ bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, cons
 }  // namespace
 
 bool certain_everywhere(const std::vector<FirstGrid>& tubes, const PartQuestion& ask, std::int64_t& cells) {
-  // Of parts only their number is kept: a certificate chooses it.
+  // Only the number of parts is kept: a certificate chooses it.
   std::vector<std::size_t> ends;
   std::size_t count = 0;
   bool all_are_asked = !tubes.empty();

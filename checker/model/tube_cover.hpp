@@ -13,8 +13,8 @@
 
 namespace veritrack::checker {
 
-/// What is found of a part of a tube: which of the questions are not certain of it, and whether it is better
-/// to halve its frequencies than its phases.
+/// The finding on a part of a tube: which of the questions are not certain on it, and whether it is better to
+/// halve its frequencies than its phases.
 struct PartAnswer {
   std::vector<std::size_t> open;
   std::optional<bool> halve_frequencies;  ///< nothing: not known
@@ -23,8 +23,8 @@ struct PartAnswer {
 /// threads.
 using PartQuestion = std::function<PartAnswer(std::size_t number, const TubePart& part,
                                               const std::vector<std::size_t>& questions)>;
-/// How many parts of a turn, and of the frequencies of the tube, to begin with: powers of two; and how many
-/// questions there are.
+/// The initial number of parts of a turn, and of the frequencies of the tube, powers of two; and the number
+/// of questions.
 struct FirstGrid {
   std::size_t phases = 32;
   std::size_t frequencies = 1;

@@ -1,4 +1,4 @@
-// What the estimate of the frequency does in a tube.
+// The errors of the frequency estimate in a tube.
 #include "checker/model/tube_check.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// How much of a function comes from the extent in s, and in z, about.
+/// Approximately how much of a function comes from the extent in s, and in z.
 struct Extent {
   double by_phase = 0.0;
   double by_frequency = 0.0;
@@ -126,7 +126,7 @@ bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations, const 
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     if (!certainly_equal(deviations[i], zero)) {
       if (i >= n) {
-        return false;  // of a covariance, of which there are bounds in place of a curve
+        return false;  // a covariance has bounds in place of a curve
       }
       moved.push_back(i);
     }
@@ -161,8 +161,8 @@ bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations, const 
 
 namespace {
 
-/// Without what all have in common, about: the mean of their coefficients of z, z^2, ... At a frequency the
-/// same number is taken from all of them.
+/// Without their common part, approximately: the mean of their coefficients of z, z^2, ... At a frequency the
+/// same number is subtracted from all of them.
 void take_away_common(std::vector<BallPolynomial>& errors) {
   std::array<double, BallPolynomial::kPlaces> common{};
   for (const BallPolynomial& error : errors) {
@@ -178,7 +178,7 @@ void take_away_common(std::vector<BallPolynomial>& errors) {
   }
 }
 
-/// Those of which one may be the largest or the smallest, about: where others vary does not matter.
+/// Those among which, approximately, the largest or the smallest may be: where others vary does not matter.
 std::vector<BallPolynomial> which_may_be_extreme(const std::vector<BallPolynomial>& errors) {
   double largest = errors.front().range().lower_double();
   double smallest = errors.front().range().upper_double();

@@ -1,4 +1,5 @@
-// Tubes around the curve of a tracker, as a certificate writes them. Any numbers will do: they are evidence.
+// Tubes around the curve of a tracker, as a certificate writes them. Any numbers are valid: they are
+// evidence.
 #pragma once
 
 #include <complex>
@@ -18,8 +19,8 @@ inline constexpr std::size_t kMostPowers = 32;
 /// Re sum_h sum_d c[h][d] z^d exp(i h phi). Nothing: 0.
 using PhaseSeries = std::vector<std::vector<std::complex<double>>>;
 
-/// What bounds of a covariance have to spare at each sample, as a share of themselves, and how many times as
-/// wide others are from which they are reached.
+/// The room that bounds of a covariance leave at each sample, as a share of themselves, and how many times as
+/// wide the bounds are from which they are reached.
 struct LongRunEntry {
   double margin = 0.0;  ///< in (0, 1)
   double ratio = 0.0;   ///< at least 1
@@ -35,17 +36,17 @@ struct PhaseTube {
   std::vector<long> turns;
   std::vector<PhaseSeries> curve;
   std::vector<PhaseSeries> shape;  ///< the lower triangle, row by row
-  /// Of a filter: bounds, in the order of symmetric matrices, of the covariance that is predicted for the
-  /// sample at the phase; lower triangles, row by row. Curve and shape are those of the estimate then.
+  /// For a filter: bounds, in the order of symmetric matrices, of the covariance that is predicted for the
+  /// sample at the phase; lower triangles, row by row. Curve and shape are then those of the estimate.
   /// Otherwise empty.
   std::vector<PhaseSeries> covariance_low, covariance_high;
-  /// Of a tube in the long run: how its bounds of the covariance are reached (long_run.hpp). Otherwise none.
+  /// For a tube in the long run: how its bounds of the covariance are reached (long_run.hpp). Otherwise none.
   std::optional<LongRunEntry> entry;
   std::size_t phases = 1;  ///< parts of a turn, and of the frequencies, to begin with
   std::size_t frequencies = 1;
 };
 
-/// Gaussian noise of a deviation in each sample (signal units), and what is shown of tubes in it
+/// Gaussian noise of a deviation in each sample (signal units), and the statement on tubes in it
 /// (gaussian_drift.hpp).
 struct GaussianTerms {
   double deviation = 0.0;
@@ -61,22 +62,23 @@ struct AmplitudePart {
   double high = 0.0;
 };
 
-/// Tubes for the frequencies of a band, for so much noise (signal units) and slew (rad/sample per sample).
+/// Tubes for the frequencies of a band, for noise up to `noise` (signal units) and slew up to `slew`
+/// (rad/sample per sample).
 struct TubeSet {
   std::string name;
-  /// Of a constant amplitude that is known to be in a range: the part of it for which the tubes are.
+  /// For a constant amplitude that is known to be in a range: the part of that range for which the tubes are.
   std::optional<AmplitudePart> amplitudes;
   double slew = 0.0;
   double noise = 0.0;
   std::optional<GaussianTerms> gaussian;  ///< then there is no noise and no slew besides, and one level
   std::vector<double> crossing;           ///< of relative levels at the borders of cells; with slew only
-  /// With a slew, of filters: the share of themselves that bounds of the covariance have to spare at every
-  /// step, and may lose at a border.
+  /// For filters, with a slew: the share of themselves that bounds of the covariance leave at every step, and
+  /// may lose at a border.
   double margin = 0.0;
   std::vector<PhaseTube> tubes;
 };
 
-/// Whether the tubes are those of a filter's estimate, with bounds of its covariance: all or none are.
+/// Whether the tubes are those of a filter's estimate, with bounds of its covariance. Either all are or none.
 inline bool bounds_covariance(const TubeSet& set) {
   return !set.tubes.empty() && !set.tubes.front().covariance_high.empty();
 }
@@ -84,13 +86,13 @@ inline bool bounds_covariance(const TubeSet& set) {
 /// The set of the long run, inside another one (long_run.hpp).
 inline constexpr const char* kLongRun = "long-run";
 
-/// How many pairs of neighbouring levels a tube has; one if there is one level.
+/// The number of pairs of neighbouring levels of a tube; one if there is one level.
 inline std::size_t pairs_of(const PhaseTube& tube) {
   return tube.levels.size() > 1 ? tube.levels.size() - 1 : 1;
 }
 
-/// Reads a set for a tracker with so many states, of which `estimated` are a filter's estimate (0: it is
-/// none). Objects to what cannot be one: levels or rates out of their order, widths that are not positive,
+/// Reads a set for a tracker with `states` states, of which `estimated` are a filter's estimate (0: not a
+/// filter). Objects to what cannot be a set: levels or rates out of order, widths that are not positive,
 /// wrong numbers of states. Throws Malformed or std::invalid_argument for what cannot be read.
 TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections, std::size_t estimated = 0);
 

@@ -1,7 +1,7 @@
 // The sets of tubes of one name: one set, or, where the amplitude is constant and known to be in a range
-// only, one for each part of that range. A signal of a constant amplitude is one whose samples have
-// amplitudes of one part, so that what is shown of the set of each part, at amplitudes that may differ from
-// sample to sample within the part, is true for it with the set of its part.
+// only, one for each part of that range. All samples of a signal of constant amplitude have amplitudes in one
+// part. The statements on the set of a part are shown for amplitudes that may differ from sample to sample
+// within the part, so they are true for this signal with the set of its part.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct TubeFamily {
   std::string name;
   std::vector<TubeSet> sets;  ///< at least one; of parts from low amplitudes to high ones
 
-  /// What all of them tolerate.
+  /// The noise and slew that all of them tolerate.
   [[nodiscard]] double noise() const { return least(&TubeSet::noise); }
   [[nodiscard]] double slew() const { return least(&TubeSet::slew); }
   [[nodiscard]] bool is_gaussian() const { return sets.front().gaussian.has_value(); }
@@ -36,9 +36,9 @@ struct TubeFamily {
   }
 };
 
-/// The tracker on the amplitudes for which a set is: those of its part, of which every sample may have
-/// another one, or those of the design. Objects unless the set is for a part where the design has a constant
-/// amplitude in a range, and for none otherwise.
+/// The tracker on the amplitudes of a set: those of its part, of which every sample may have another one, or
+/// those of the design. Objects unless the set is for a part where the design has a constant amplitude in a
+/// range, and for none otherwise.
 TrackedModel on_amplitudes_of(const TubeSet& set, const TrackedModel& model, const ModelDesign& design,
                               Objections& objections);
 
@@ -46,12 +46,12 @@ TrackedModel on_amplitudes_of(const TubeSet& set, const TrackedModel& model, con
 /// gaps and cover those of the design.
 void check_amplitudes(const std::vector<TubeSet>& sets, const ModelDesign& design, Objections& objections);
 
-/// Objects unless two families are for the same parts of the amplitudes, in the same order: Theorem 10 is
-/// about one part, of which the sets of both are.
+/// Objects unless two families are for the same parts of the amplitudes, in the same order: Theorem 10 needs
+/// both sets to be for one and the same part.
 void check_same_parts(const std::vector<TubeSet>& sets, const std::vector<TubeSet>& others,
                       Objections& objections);
 
-/// What PhaseTubeCheck says of every set.
+/// The statement of PhaseTubeCheck for every set.
 class FamilyCheck {
  public:
   using Level = std::function<std::size_t(const PhaseTube&)>;
@@ -79,7 +79,7 @@ class FamilyCheck {
   }
 
  private:
-  /// Of nothing it is not true.
+  /// False for an empty list.
   template <typename Question>
   [[nodiscard]] bool all(const Question& holds) const {
     return !sets_->empty() && std::all_of(sets_->begin(), sets_->end(), [&](const TubeSet& set) {

@@ -11,7 +11,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Whether all that becomes (d over k) on the way, d < powers, is a whole number that a double has exactly.
+/// Whether all intermediate values of (d over k), d < powers, are whole numbers that a double represents
+/// exactly.
 constexpr bool has_exact_binomials(std::size_t powers) {
   constexpr std::size_t kMost = std::size_t{1} << 53U;
   for (std::size_t k = 0; k < powers; ++k) {
@@ -26,7 +27,7 @@ constexpr bool has_exact_binomials(std::size_t powers) {
   return true;
 }
 
-/// cos and sin of h phi, times powers of z, for all that a tube needs.
+/// The cos and sin of h phi, times powers of z, that a tube needs.
 class HarmonicBasis {
  public:
   HarmonicBasis(const PhaseTube& tube, const TubePart& part, std::size_t later) {

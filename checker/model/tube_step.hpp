@@ -31,10 +31,10 @@ struct TubePart {
   double half_turn = 0.5;
   double z = 0.0;
   double half_z = 1.0;
-  double z_error = 0.0;  ///< all within so much of these, too
+  double z_error = 0.0;  ///< also includes everything within this distance
 
-  /// Part number `phase` of so many parts of a turn, number `frequency` of so many parts of the frequencies:
-  /// both powers of two.
+  /// Part number `phase` of `phases` parts of a turn, and number `frequency` of `frequencies` parts of the
+  /// frequencies: both counts are powers of two.
   static TubePart of_grid(std::size_t phase, std::size_t phases, std::size_t frequency,
                           std::size_t frequencies);
   /// The first or the second half.
@@ -44,7 +44,7 @@ struct TubePart {
   [[nodiscard]] TubePart middle() const { return {turn, 0.0, z, 0.0, z_error}; }
 };
 
-/// How far the frequency moves: z by `most` zeta.
+/// The move of the frequency: z moves by `most` zeta.
 struct FrequencyMove {
   Ball most;
   BallPolynomial zeta;
@@ -56,7 +56,7 @@ struct TubeOver {
   std::vector<BallPolynomial> shape;                            ///< the lower triangle, row by row
   std::vector<BallPolynomial> covariance_low, covariance_high;  ///< of a filter: lower triangles
 
-  /// `later`: so many samples later, at the same frequency or one that it moves to.
+  /// `later`: that many samples later, at the same frequency or one that it moves to.
   TubeOver(const PhaseTube& tube, const TubePart& part, std::size_t later,
            const FrequencyMove* move = nullptr);
   /// The diagonal of the shape is certainly positive.
@@ -67,15 +67,15 @@ struct TubeOver {
   [[nodiscard]] std::vector<BallPolynomial> coordinates(const std::vector<BallPolynomial>& vector) const;
 };
 
-/// The signal over the part so many samples later, without noise.
+/// The signal over the part, `later` samples later, without noise.
 std::vector<BallPolynomial> signal_later(const TrackedModel& model, const PhaseTube& tube,
                                          const TubePart& part, std::size_t later = 1);
 /// The same with |v| <= noise in signal units, v the second vector of the monomials. Where the amplitude
-/// varies, what it does to a sample is what the polynomials of the signal leave open: an error of the sample
+/// varies, its effect on a sample is within the errors of the signal's polynomials: an error of the sample
 /// beside the noise, whose length is at most that of these errors.
 std::vector<BallPolynomial> with_noise(const TrackedModel& model, std::vector<BallPolynomial> signal,
                                        double noise, const VectorMonomials& monomials);
-/// omega over the part, and the estimate of the frequency at a state less that; rad/sample.
+/// omega over the part, and the estimate of the frequency at a state minus omega; rad/sample.
 BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part);
 BallPolynomial frequency_error(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
                                const std::vector<BallPolynomial>& state);
@@ -90,7 +90,7 @@ class TubeStep {
   TubeStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
            const VectorMonomials& monomials, double slew = 0.0);
 
-  /// Whether the shape is one here and a sample later: certainly positive on its diagonal.
+  /// Whether the shape is valid here and a sample later: certainly positive on its diagonal.
   [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
   /// F for |xi| <= radius, |v| <= noise, where the ball polynomials are in xi/radius and v/noise. The second
   /// vector of the monomials is v if samples are disturbed.

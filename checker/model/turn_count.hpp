@@ -1,5 +1,6 @@
-// By how many turns values change when angles make whole turns: what a recursion must keep if its angles are
-// known modulo 2 pi only. Read off the formulas, by computing with these counts in place of numbers.
+// By how many turns values change when angles make whole turns: a recursion whose angles are known modulo 2
+// pi only must keep these counts. They are read off the formulas, by computing with counts in place of
+// numbers.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@
 namespace veritrack::checker {
 
 /// A value that changes by 2 pi turns[i] when angle number i changes by 2 pi, for all i and all values of the
-/// angles; or one of which that is not known.
+/// angles; or one for which that is not known.
 class TurnCount {
  public:
   /// It does not change.
@@ -23,7 +24,7 @@ class TurnCount {
   /// Some number that does not change.
   static TurnCount still();
 
-  /// Certain to turn so often with each angle; angles beyond the end of the list: not at all.
+  /// Certain to turn this often with each angle, and not at all with angles beyond the end of the list.
   [[nodiscard]] bool turns_by(const std::vector<long>& expected) const;
   [[nodiscard]] bool is_still() const { return turns_by({}); }
 
@@ -50,7 +51,7 @@ class TurnCount {
   static TurnCount combined(const TurnCount& x, long times_x, const TurnCount& y, long times_y);
   /// Any function of both: still if both are.
   [[nodiscard]] TurnCount with(const TurnCount& y) const;
-  /// Of period 2 pi in this one.
+  /// A function of period 2 pi in this one.
   [[nodiscard]] TurnCount periodic() const;
 
   bool known_ = true;
@@ -59,7 +60,7 @@ class TurnCount {
 };
 
 /// Empty when G(X + 2 pi e_i) = G(X) + 2 pi e_i for every angle i, the estimate of the frequency does not
-/// change with it, and the signal has the period 2 pi in its phase; else what is not known to be so.
+/// change with it, and the signal has the period 2 pi in its phase; otherwise lists what is not known.
 std::string angle_objection(const ModelRecursion& recursion);
 
 }  // namespace veritrack::checker

@@ -15,17 +15,17 @@ class VectorMonomials {
   static constexpr int kMostDegree = 3;
 
   static constexpr std::size_t kVectors = 3;
-  /// How many pairs of degrees in v and w there are.
+  /// The number of pairs of degrees in v and w.
   static constexpr std::size_t kForms = (kMostDegree + 1) * (kMostDegree + 1);
 
-  /// What Bombieri's norm needs of a monomial of exponents a in x, b in v and c in w.
+  /// A monomial's data for Bombieri's norm; its exponents are a in x, b in v and c in w.
   struct Kind {
     int degree_of_x = 0;
     std::size_t form = 0;  ///< the same for the same degrees in v and w
     double weight = 1.0;   ///< a!/|a|! b!/|b|! c!/|c|!, rounded up
   };
 
-  /// At most 20 variables. Throws std::invalid_argument for more, or none.
+  /// At most 20 variables. Throws std::invalid_argument for more, or for zero.
   explicit VectorMonomials(std::size_t x, std::size_t v = 0, std::size_t w = 0);
 
   /// The first variable of x, v and w; of number kVectors: how many variables there are.
@@ -34,7 +34,7 @@ class VectorMonomials {
     return firsts_.at(vector + 1) - firsts_[vector];
   }
   [[nodiscard]] std::size_t variables() const { return variables_; }
-  /// How many monomials of this degree there are.
+  /// The number of monomials of this degree.
   [[nodiscard]] std::size_t count(int degree) const {
     return kinds_[static_cast<std::size_t>(degree)].size();
   }

@@ -1,6 +1,6 @@
 // Real numbers as balls: Arb's arb_t with C++ operators. Every result contains the exact result for all
-// points of its operands; what is undefined somewhere on its operands is a ball of everything, of which no
-// comparison is true.
+// points of its operands; a result that is undefined somewhere on its operands is a ball of everything, for
+// which no comparison is true.
 #pragma once
 
 #include <arb.h>
@@ -23,7 +23,7 @@ inline slong precision() {
 }
 void set_precision(slong bits);
 
-/// A set of reals, midpoint +- radius. Not a number is possible, and is certain of nothing.
+/// A set of reals, midpoint +- radius. "Not a number" is possible, and nothing is certain about it.
 class Ball {
  public:
   Ball() { arb_init(x_); }
@@ -32,7 +32,7 @@ class Ball {
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
   ~Ball() {
-    // Numbers of at most two limbs lie in x_ itself; to ask saves the calls of nearly every ball.
+    // Numbers of at most two limbs lie in x_ itself; this test saves the calls for nearly every ball.
     if (ARF_HAS_PTR(arb_midref(x_)) || COEFF_IS_MPZ(ARF_EXP(arb_midref(x_))) ||
         COEFF_IS_MPZ(MAG_EXP(arb_radref(x_)))) {
       arb_clear(x_);
@@ -58,7 +58,7 @@ class Ball {
 
   /// Certainly finite: neither infinities nor "not a number" among the points.
   [[nodiscard]] bool finite() const { return arb_is_finite(x_) != 0; }
-  /// The ends of the ball, rounded outward to so many bits, as exact balls.
+  /// The ends of the ball, rounded outward to this many bits, as exact balls.
   [[nodiscard]] Ball lower(slong bits = precision()) const;
   [[nodiscard]] Ball upper(slong bits = precision()) const;
   /// The middle and the radius of the ball, as exact balls.
@@ -167,7 +167,7 @@ inline Ball min(const Ball& x, const Ball& y) {
 }
 Ball pi();
 
-// A comparison is true only when it is true of all points; that it is false says nothing.
+// A comparison is true only when it is true of all points; a false comparison proves nothing.
 inline bool certainly_less(const Ball& x, const Ball& y CHECKER_PLACE) {
   CHECKER_IF_FORCED
   return x.finite() && y.finite() && arb_lt(x.raw(), y.raw()) != 0;
@@ -190,7 +190,7 @@ inline bool certainly_equal(const Ball& x, const Ball& y CHECKER_PLACE) {
   return x.finite() && y.finite() && arb_eq(x.raw(), y.raw()) != 0;
 }
 
-/// What is known of a value: that it is in `low`, or anywhere from `low` to `high`.
+/// The known range of a value: it is in `low`, or anywhere from `low` to `high`.
 struct Range {
   Ball low, high;
   Range(const Ball& value) : low(value), high(value) {}  // NOLINT(google-explicit-constructor)

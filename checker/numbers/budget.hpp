@@ -21,14 +21,14 @@ inline constinit thread_local std::int64_t spent = 0;
 [[noreturn]] void out_of_budget();
 }  // namespace detail
 
-/// Begins anew with that many operations.
+/// Starts again with that many operations.
 void set_budget(std::int64_t operations);
 /// The operations of this thread since then.
 inline std::int64_t operations_spent() {
   return detail::spent;
 }
-/// A thread that works for another begins with what that one has spent; in the end, what it has spent itself
-/// is to be counted there.
+/// A thread that works for another begins with the operations that the other has spent; at the end, its own
+/// must be counted there.
 inline void go_on_from(std::int64_t operations) {
   detail::spent = operations;
 }

@@ -21,7 +21,7 @@ struct Place {
   bool forced = false;
 };
 
-/// Looks a place up for the first time: is it the one, and where is it written down.
+/// Looks a place up for the first time: whether it is the one, and where it is recorded.
 Place looked_up(const std::source_location& at) {
   Place place{std::string(at.file_name()) + ':' + std::to_string(at.line()) + ':' +
               std::to_string(at.column())};

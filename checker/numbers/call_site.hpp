@@ -1,4 +1,4 @@
-// Where a comparison is made: only in the build that searches for guards which no test misses
+// The place of a comparison: only in the build that searches for guards whose absence no test notices
 // (-DVERITRACK_MUTATION=ON, scripts/mutation). There a comparison is true at the one place that
 // VERITRACK_MUTANT=file:line:column names, whatever it compares, and VERITRACK_MUTANT_SITES names a file to
 // which each place that is reached is written. In all other builds these macros are empty.

@@ -64,7 +64,7 @@ CellSeries operator*(const CellSeries& a, const CellSeries& b) {
   add(4, 1, 2);
   add(4, 2, 1);
   add(5, 2, 2);
-  // What is left: at most |a1| |b2| + |a2| |b1| + |a2| |b2|, with the parts of degree one and two.
+  // The remainder: at most |a1| |b2| + |a2| |b1| + |a2| |b2|, with the parts of degree one and two.
   mag_t size;
   mag_t parts[2][2];
   mag_init(size);

@@ -7,8 +7,8 @@
 
 namespace veritrack::checker {
 
-/// A function f over x, y in [-1, 1]: at every point f is in the ball that the polynomial has there. What is
-/// of a higher degree goes into the radius of the constant coefficient.
+/// A function f over x, y in [-1, 1]: at every point f is in the ball that the polynomial has there. Terms of
+/// higher degree go into the radius of the constant coefficient.
 class CellSeries {
  public:
   CellSeries() = default;
@@ -19,15 +19,15 @@ class CellSeries {
   [[nodiscard]] const Ball& constant() const { return c_[0]; }
   /// All values over the cell.
   [[nodiscard]] Ball range() const { return c_[0] + Ball::within(deviation()); }
-  /// Of the part that is linear, at x = 1 or -1, y = 1 or -1.
+  /// The linear part at x = 1 or -1, y = 1 or -1.
   [[nodiscard]] Ball corner(int x, int y) const {
     const Ball by_x = x > 0 ? c_[0] + c_[1] : c_[0] - c_[1];
     return y > 0 ? by_x + c_[2] : by_x - c_[2];
   }
-  /// A bound on the part that is quadratic.
+  /// A bound on the quadratic part.
   [[nodiscard]] Ball bend() const { return abs(c_[3]) + abs(c_[4]) + abs(c_[5]); }
-  /// How far the function may be from the polynomial with the middles of the coefficients; and that
-  /// polynomial.
+  /// A bound on the distance of the function from the polynomial with the middles of the coefficients; and
+  /// that polynomial.
   [[nodiscard]] Ball remainder() const;
   void drop_remainder();
 

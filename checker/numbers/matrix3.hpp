@@ -10,8 +10,8 @@ namespace veritrack::checker {
 template <std::size_t Size>
 using SquareMatrix = std::array<std::array<Ball, Size>, Size>;
 
-/// True only when every symmetric matrix whose lower triangle is in the balls is positive definite: each has
-/// its pivots in those found.
+/// True only when every symmetric matrix whose lower triangle is in the balls is positive definite: the
+/// pivots of each lie in the balls found.
 template <std::size_t Size>
 bool definite(SquareMatrix<Size> m CHECKER_PLACE) {
   CHECKER_IF_FORCED

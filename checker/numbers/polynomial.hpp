@@ -1,7 +1,7 @@
 // Functions of three variables, each in [-1, 1], as polynomials with balls for coefficients: a polynomial
 // represents all functions that are, at each point, the value of a polynomial with coefficients in the balls.
-// What is cut off (terms of a degree above a limit) and what is not known exactly is in the radii. Every
-// result contains the exact result for all functions that its operands stand for.
+// The radii contain the truncation (terms of a degree above a limit) and everything that is not known
+// exactly. Every result contains the exact result for all functions that its operands represent.
 #pragma once
 
 #include <arb_poly.h>
@@ -28,11 +28,11 @@ class Polynomial {
   [[nodiscard]] Ball constant() const { return terms_.empty() ? zero : terms_[0]; }
   /// All values.
   [[nodiscard]] Ball range() const;
-  /// All functions within `distance` of this one; terms above the degree are cut off, here and in all that is
-  /// computed from it.
+  /// All functions within `distance` of this one; terms above the degree are truncated, here and in
+  /// everything computed from it.
   [[nodiscard]] Polynomial lowered(std::size_t degree, const Ball& distance) const;
-  /// Takes the midpoints of all coefficients. Returns a bound on how far any function that this stood for is
-  /// from the polynomial that is left.
+  /// Takes the midpoints of all coefficients. Returns a bound on the distance of any function that this
+  /// represented from the remaining polynomial.
   Ball round();
 
   friend Polynomial operator+(const Polynomial& x, const Polynomial& y);
@@ -45,7 +45,7 @@ class Polynomial {
   friend Polynomial arctangent(const Polynomial& x);
 
  private:
-  /// One of Arb's functions of power series: f(argument) to so many terms, with so many bits.
+  /// One of Arb's functions of power series: f(argument), with the given numbers of terms and bits.
   using Series = void (*)(arb_poly_struct*, const arb_poly_struct*, slong, slong);
   [[nodiscard]] Polynomial composed(Series series) const;
 

@@ -4,8 +4,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Unit roundoff; underflow in a unit of length between 2^-60 and 2^60, of quantities that scale like its 8th
-/// power at most, which must not exceed this size in it.
+/// Unit roundoff; underflow in a unit of length between 2^-60 and 2^60, for quantities that scale like at
+/// most its 8th power and must not exceed this size in it.
 const Ball& unit_roundoff() {
   static const Ball value(0x1p-53);
   return value;

@@ -1,4 +1,4 @@
-// Power series in one variable, cut off after so many terms: Arb's polynomials with C++ operators. The
+// Power series in one variable, truncated after a number of terms: Arb's polynomials with C++ operators. The
 // coefficients of a series about a ball contain those about each of its points; the last of them bounds the
 // remainder of the Taylor polynomial (Lagrange).
 #pragma once

@@ -42,7 +42,7 @@ class Queue {
     }
   }
 
-  /// When all have come to their end.
+  /// When all have ended.
   [[nodiscard]] std::size_t result() const {
     if (thrown_) {
       std::rethrow_exception(thrown_);
@@ -72,7 +72,7 @@ std::size_t first_failure(std::size_t count, const std::function<bool(std::size_
   try {
     for (std::int64_t& operations : spent) {
       threads.emplace_back([&queue, before, &operations] {
-        // So that none goes beyond the budget by itself.
+        // No thread may exceed the budget by itself.
         go_on_from(before);
         queue.run();
         operations = operations_spent() - before;

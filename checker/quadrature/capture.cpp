@@ -34,9 +34,9 @@ class Followed {
   Followed(const Loop& loop, const Matrix3& covariance, const Setting& set, const Ball& turns)
       : loop_(loop), covariance_(covariance), set_(set), shift_(two * turns * pi()) {}
 
-  /// A bound on |frequency error| up to so many samples when then |T e| <= level and the covariance is in its
-  /// bounds, for certain; nothing otherwise. What cannot be shown of the box as a whole is shown of its
-  /// halves.
+  /// A bound on |frequency error| up to sample `samples`, when then certainly |T e| <= level and the
+  /// covariance is in its bounds; empty otherwise. A statement that cannot be shown for the box as a whole is
+  /// shown for its halves.
   [[nodiscard]] std::optional<Ball> reach(const StartBox& box, int samples, const Ball& level,
                                           int halvings) const {
     const auto side = [&](std::size_t i) { return Ball::hull(box.low[i], box.high[i]); };
@@ -71,7 +71,7 @@ class Followed {
   Ball shift_;
 };
 
-/// What the verified set, with what was found on the way to it, says of starts that enter it.
+/// The statements of the verified set, with the findings on the way to it, on starts that enter it.
 void conclude(const Cover& cover, const Ball& largest, const Setting& set, const Design& disturbed,
               const Tree& quantities, Captured& found) {
   const Ball ultimate = ultimate_level(set, disturbed) / set.metric.frequency;
@@ -104,8 +104,8 @@ void conclude(const Cover& cover, const Ball& largest, const Setting& set, const
                       {"cells_captured", total}};
 }
 
-/// Every box of the cover, or an evenly spaced sample of them; objects unless each does what it should, and
-/// to a sample. The largest |frequency error|.
+/// Follows every box of the cover, or an evenly spaced sample of them; objects unless each does what it
+/// should, and objects to a sample. Returns the largest |frequency error|.
 Ball follow_all(const Cover& cover, const Followed& followed, bool symmetric, bool all_boxes,
                 Objections& objections) {
   const std::size_t total = cover.boxes.size();
@@ -153,7 +153,7 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
       certainly_equal(start.lowest[0][1], zero) && certainly_equal(start.lowest[0][2], zero) &&
       certainly_equal(start.highest[0][1], zero) && certainly_equal(start.highest[0][2], zero);
   const bool captured = certainly_equal(cover.turns, zero);
-  // The least frequency error in the shifted set, which is invariant, too: for the frequency error acts
+  // The least frequency error in the shifted set, which is also invariant, because the frequency error acts
   // through its sine and cosine alone.
   const Ball reach = frequency_errors(set);
   const Ball off = two * abs(cover.turns) * pi() - reach;

@@ -11,7 +11,7 @@
 
 namespace veritrack::checker {
 
-/// What was found of a derivation "capture", "capture/noise-free" or "capture/reduced-noise".
+/// The findings on a derivation "capture", "capture/noise-free" or "capture/reduced-noise".
 struct Captured {
   Ball noise, slew;  ///< the starts were followed under at most these
   Verdict verdict = Verdict::undecided;
@@ -24,12 +24,12 @@ struct Captured {
 };
 
 /// Objects unless the boxes in the evidence cover all assumed starts and every one of them is followed into
-/// the certified set, or the start in the evidence is followed into another. Of very many boxes a sample is
-/// followed unless `all_boxes`, and proves nothing.
+/// the certified set, or the start in the evidence is followed into another. When there are very many boxes,
+/// only a sample is followed unless `all_boxes`, which proves nothing.
 Captured check_capture(const Tree& derivation, const Design& design, const std::vector<CertifiedSet>& sets,
                        bool all_boxes, Objections& objections);
 
-/// The claims "ekf/capture...", from what was found of the derivations that were verified, by their ids.
+/// The claims "ekf/capture...", from the findings on the verified derivations, by their ids.
 bool is_capture_claim(const std::string& id);
 Claim check_capture_claim(const Tree& claim, const std::map<std::string, Captured>& captured,
                           const Guarantee& guarantee, Objections& objections);

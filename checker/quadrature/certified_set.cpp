@@ -10,7 +10,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// The first row and column are zero but for the diagonal.
+/// The first row and column are zero except on the diagonal.
 bool amplitude_is_apart(const Matrix3& m) {
   return certainly_equal(m[0][1], zero) && certainly_equal(m[0][2], zero) && certainly_equal(m[1][0], zero) &&
          certainly_equal(m[2][0], zero);
@@ -68,7 +68,7 @@ void bound_rounding(Setting& s, const Design& design) {
   s.covariance_rounding = rounding_share(whole(s.lower), polar);
 }
 
-/// What of the theorem's hypotheses is not proved; nothing when all are.
+/// The hypotheses of the theorem that are not proved; empty when all are.
 std::string refusal_of(const Setting& s, std::int64_t& cells) {
   if (!certainly_positive(s.radius) || !certainly_not_negative(s.noise) || !certainly_not_negative(s.slew) ||
       !certainly_not_negative(s.rate) || !certainly_less(s.rate, one) ||
@@ -157,7 +157,7 @@ bool settled(const Setting& s, const Design& d, const Ball& start, const Ball& f
   if (certainly_at_most(start, level)) {
     return true;
   }
-  // A step takes l - u, l >= u, to at most rate (l - u): the next level has a slope of at most rate.
+  // A step maps l - u, l >= u, to at most rate (l - u): the next level has a slope of at most rate.
   if (certainly_at_most(samples * log(s.rate) + log(start - limit), log(level - limit))) {
     return true;
   }

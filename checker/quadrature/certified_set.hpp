@@ -1,5 +1,5 @@
-// The certified sets of the tracker without a leak (docs/contraction.md): read, proved, and what each of them
-// proves about the errors in it.
+// The certified sets of the tracker without a leak (docs/contraction.md): they are read and proved, and each
+// proves bounds on the errors in it.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ struct CertifiedSet {
   bool verified = false;
 };
 
-/// Reads a set and proves of it, from nothing but the design: P_lo > 0, P_hi > P_lo, T invertible, and the
-/// hypotheses (a), (b), (c) of the theorem. What fails is an objection, and the set is not verified.
+/// Reads a set and proves, from nothing but the design: P_lo > 0, P_hi > P_lo, T invertible, and the
+/// hypotheses (a), (b), (c) of the theorem. Each failure is an objection, and the set is then not verified.
 CertifiedSet check_set(const Tree& set, const Design& design, std::int64_t& cells, Objections& objections);
 
 /// The first verified set of this purpose, or none.
@@ -35,14 +35,15 @@ std::array<Ball, 3> inverse_rows(const Metric& metric);
 Ball frequency_errors(const Setting& set);
 /// sup |T e| over |e_i| <= bounds_i.
 Ball largest_level(const Metric& metric, const Ball& amplitude, const Ball& phase, const Ball& frequency);
-/// The shifts by whole turns of the frequency error that a verified set may be asked for.
+/// The shifts by whole turns of the frequency error for which a verified set may be asked.
 inline const Ball kMostTurns(3.0);
 /// A bound on |T e| after a step from |T e| <= level under this noise and slew.
 Ball next_level(const Setting& set, const Ball& level, const Ball& noise, const Ball& slew);
-/// What |T e| tends to at most under the noise and slew of the design: the level that is its own next_level.
+/// An upper bound on the limit of |T e| under the noise and slew of the design: the level that is its own
+/// next_level.
 Ball ultimate_level(const Setting& set, const Design& design);
-/// From |T e| <= start on: within `frequency_error` so many samples later, and at all later ones:
-/// rate'^(2k) (l^2 - u^2) + u^2 <= level^2 with rate'^2 = rate^2 u/(u - rounding).
+/// From |T e| <= start on: the frequency error is within `frequency_error` after `samples` samples, and at
+/// all later ones: rate'^(2k) (l^2 - u^2) + u^2 <= level^2 with rate'^2 = rate^2 u/(u - rounding).
 bool settled(const Setting& set, const Design& design, const Ball& start, const Ball& frequency_error,
              const Ball& samples);
 

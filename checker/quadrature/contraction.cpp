@@ -45,7 +45,7 @@ void improve(std::optional<Ball>& best, const Ball& bound) {
   }
 }
 
-/// What the sets promise of the assumed starts, and the sets that contain them. When none does: of every
+/// The promises of the sets on the assumed starts, and the sets that contain them. When none does: on every
 /// start in the set "start-error".
 struct StartSets {
   Promises promises;

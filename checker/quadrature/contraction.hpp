@@ -9,7 +9,7 @@
 
 namespace veritrack::checker {
 
-/// Objects to what of the derivation "contraction" the verified sets do not prove.
+/// Objects to every statement of the derivation "contraction" that the verified sets do not prove.
 Promises check_contraction(const Tree& derivation, const Design& design,
                            const std::vector<CertifiedSet>& sets, Objections& objections);
 

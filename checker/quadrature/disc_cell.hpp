@@ -16,14 +16,15 @@ struct DiscCell {
 
   /// No point of the box is in the unit disc, for certain.
   [[nodiscard]] bool is_outside() const;
-  /// Corners of a polygon that contains what the box has in the unit disc.
+  /// Corners of a polygon that contains the part of the box in the unit disc.
   [[nodiscard]] std::vector<DiscPoint> corners() const;
   /// The two halves: 0 and 1 along x and y, 2 along the frequencies.
   [[nodiscard]] std::array<DiscCell, 2> halves(std::size_t side) const;
 };
 
-/// Where the cells of a level were cut: a good beginning for the level below it, and for other frequencies.
-/// It decides which cells are looked at, and the parts of a cell cover it: no division proves anything.
+/// The places where the cells of a level were cut: a good first division for the level below it, and for
+/// other frequencies. It only decides which cells are examined, and the parts of a cell cover it: no division
+/// proves anything.
 class DiscDivision {
  public:
   static constexpr std::size_t kWhole = 0;  ///< the node of the cell that holds all
@@ -31,7 +32,8 @@ class DiscDivision {
   DiscDivision() : nodes_(1) {}
 
   [[nodiscard]] bool is_cut(std::size_t node) const { return nodes_[node].first != 0; }
-  /// A cut cell whose parts are not, and which failed at a level that was well above this one: it may hold.
+  /// A cut cell whose parts are not cut, and which failed at a level well above this one: here it may
+  /// succeed.
   [[nodiscard]] bool may_hold(std::size_t node, double level) const;
   void cut(std::size_t node, std::size_t side, double level);
   void undo_cut(std::size_t node) { nodes_[node].first = 0; }

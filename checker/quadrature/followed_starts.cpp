@@ -11,7 +11,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Of the polynomials in which derivatives are enclosed.
+/// The degree of the polynomials in which derivatives are enclosed.
 constexpr std::size_t kSlopeDegree = 2;
 constexpr std::size_t kMostGenerators = 90;
 constexpr std::size_t kKeptGenerators = 45;
@@ -104,7 +104,7 @@ void FollowedStarts::merge_smallest() {
   if (generators_.size() <= kMostGenerators) {
     return;
   }
-  // By their share in the extent of the set; any order will do.
+  // By their share in the extent of the set; any order is valid.
   const State<Ball> extent = radii();
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t j = 0; j < generators_.size(); ++j) {
@@ -195,7 +195,7 @@ Ball FollowedStarts::frequency_error() const {
 }
 
 PolarEnclosure FollowedStarts::polar(const Matrix3& metric, const std::array<Ball, 3>& origin) const {
-  // Near the middle: any angle will do.
+  // Near the middle: any angle is valid.
   const double angle = std::atan2(middle_[kZ2].constant().near(), middle_[kZ1].constant().near());
   const State<Ball> extent = radii();
   const auto middle = polar_of<Polynomial>(middle_, metric, origin, Ball(angle));

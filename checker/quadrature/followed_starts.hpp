@@ -1,9 +1,9 @@
 // Starts of the quadrature tracker, followed sample by sample: an enclosure of every state that a box of
 // starts can reach, for all noise and slew within their bounds. With and without a leak.
 //
-// The frame is that of the true phase, the signal of amplitude 1 is (1, 0) in it. Of the filtered estimate
-// the state has z = (z1, z2), nu = x3 - omega, and P. With omega the frequency, w = omega+ - omega, v the
-// noise, J z = (-z2, z1), Rot the turn by nu (the prediction turns by x3, the signal by omega), and
+// The frame is that of the true phase, the signal of amplitude 1 is (1, 0) in it. The state consists of z =
+// (z1, z2), nu = x3 - omega, and P of the filtered estimate. With omega the frequency, w = omega+ - omega, v
+// the noise, J z = (-z2, z1), Rot the turn by nu (the prediction turns by x3, the signal by omega), and
 // everything before the last line in the frame of the prediction:
 //     F = [[I, J z], [0, 1 - epsilon]],  P^ = F P F' + diag(q1, q1, q2),  S = H P^ H' + r I,  K = P^ H' S^-1,
 //     j = Rot^-1 ((1, 0) + v) - z,
@@ -11,8 +11,8 @@
 //     Rot^-1.
 //
 // The enclosure. {p(s) + e}: p polynomials in the start errors, e in a zonotope, which contains everything
-// else. A step G takes it into {G(p(s), 0) + G_x e + G_v v + what rounding adds}, the derivatives over all
-// that lies between (mean value theorem).
+// else. A step G maps it into {G(p(s), 0) + G_x e + G_v v + what rounding adds}, with derivatives over
+// everything in between (mean value theorem).
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct Loop {
   Ball q1, q2, r, epsilon;
   Ball frequency;    ///< contains every omega, rad/sample; without effect when epsilon = 0
   Ball noise, slew;  ///< |v| <= noise, |w| <= slew, rad/sample per sample
-  // For what rounding adds: the true amplitude, signal units, and a bound on |omega|, rad/sample.
+  // For the effect of rounding: the true amplitude, signal units, and a bound on |omega|, rad/sample.
   Ball amplitude, largest_frequency;
 };
 
@@ -64,7 +64,7 @@ State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise
   const Ball kept = one - loop.epsilon;
   const S& z1 = x[kZ1];
   const S& z2 = x[kZ2];
-  // P^, of which c is the third column without (1 - epsilon), and S^-1.
+  // P^, whose third column without (1 - epsilon) is c, and S^-1.
   const S c1 = x[kP13] - z2 * x[kP33];
   const S c2 = x[kP23] + z1 * x[kP33];
   const S noise_variance = S(loop.q1 + loop.r);
@@ -112,17 +112,17 @@ class FollowedStarts {
 
   /// One sample on.
   void step();
-  /// Of every state: x3 - omega, rad/sample.
+  /// Contains x3 - omega of every state, rad/sample.
   [[nodiscard]] Ball frequency_error() const;
   /// The phase error is that in (-pi, pi], or near it. Balls of everything when the estimate may be zero.
   [[nodiscard]] PolarEnclosure polar(const Matrix3& metric, const std::array<Ball, 3>& origin) const;
 
  private:
   [[nodiscard]] State<Ball> radii() const;
-  /// What is not a polynomial with exact coefficients goes into the zonotope.
+  /// Moves everything that is not a polynomial with exact coefficients into the zonotope.
   void round();
   void add_box(const State<Ball>& radii);
-  /// What the rounding of the program adds to the exact step from here.
+  /// The deviation of the program from the exact step from here, by rounding.
   [[nodiscard]] State<Ball> rounding() const;
   void merge_smallest();
 

@@ -9,8 +9,8 @@
 
 namespace veritrack::checker {
 
-/// What the sets, when any were proved, say of the assumed starts. Objects to what the derivation says and
-/// this does not.
+/// The statements of the sets on the assumed starts, when any sets were proved. Objects to every statement of
+/// the derivation that is not among these.
 Promises check_lock(const Tree& derivation, const Design& design, const GaussianNoise& noise,
                     const std::vector<LockSet>& sets, Objections& objections);
 

@@ -89,7 +89,7 @@ std::vector<Part> cover_of(const LockSet& set, bool halved) {
   return parts;
 }
 
-/// Looks at the parts one after the other, as they are free. What was thrown, if anything.
+/// Examines free parts one after the other. Returns what was thrown, if anything.
 class Workers {
  public:
   Workers(const LockInequality& inequality, std::vector<Part>& parts)
@@ -104,7 +104,7 @@ class Workers {
     try {
       for (std::int64_t& operations : spent) {
         threads.emplace_back([this, before, &operations] {
-          // So that none goes beyond the budget by itself.
+          // No thread may exceed the budget by itself.
           go_on_from(before);
           work();
           operations = operations_spent() - before;

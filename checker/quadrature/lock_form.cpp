@@ -28,7 +28,7 @@ std::array<Chord, 3> image(const Metric& t, const std::array<Chord, 3>& v) {
   return {t.amplitude * v[0], t.phase * v[1] + t.coupling * v[2], t.frequency * v[2]};
 }
 
-/// Of a mean and half spread of the images and of m.
+/// From a mean and half spread of the images and of m.
 ChordMatrix<kSize> entries(const Lower3<Chord>& mean, const Lower3<Chord>& spread,
                            const std::array<Chord, 3>& error, const std::array<Chord, 2>& p, const Metric& t,
                            const Ball& gain) {

@@ -1,4 +1,4 @@
-// The matrix of docs/gaussian.md, (6), and what a matrix of this form says.
+// The matrix of docs/gaussian.md, (6), and the bound that a matrix of this form gives.
 //
 // Rows: T e+ (3), the noise (2), the rest (1). With N the matrix at a point, for one multiplier mu,
 //     left over = pivot of the last row + log(product of the noise's two pivots) + log(1 - w^2 |T e3|^2),
@@ -30,7 +30,7 @@ struct Parts {
 };
 Parts parts_of(const LockStep& step, const Metric& next, const Ball& deviation, const Ball& r);
 
-/// What each entry is multiplied with, for a multiplier mu.
+/// The factor of each entry, for a multiplier mu.
 template <typename S>
 struct Factors {
   S error, noise, pulled, rest;
@@ -41,7 +41,7 @@ Factors<S> factors_of(const S& multiplier, const S& deviation, const S& r) {
   return {S(-1.0) / multiplier, S(-1.0) * by_rest * deviation * deviation, by_rest * deviation,
           S(-1.0) * by_rest};
 }
-/// Of the entry (i, j), j <= i; nothing: it is multiplied with 1.
+/// The factor of the entry (i, j), j <= i; null when it is 1.
 template <typename S>
 const S* factor_at(const Factors<S>& factors, std::size_t i, std::size_t j) {
   if (i < kNoise) {
@@ -53,8 +53,8 @@ const S* factor_at(const Factors<S>& factors, std::size_t i, std::size_t j) {
   return j < kNoise ? nullptr : j < kRest ? &factors.pulled : &factors.rest;
 }
 
-/// What is left over but for the constant log(1 - w^2 |T e3|^2), at a point. Nothing is certain of it (a ball
-/// of everything) when a pivot is not positive.
+/// "left over" without the constant log(1 - w^2 |T e3|^2), at a point. A ball of everything when a pivot is
+/// not certainly positive.
 Ball left_over(SquareMatrix<kSize> n);
 
 }  // namespace veritrack::checker::lock_form

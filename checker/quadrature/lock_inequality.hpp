@@ -14,7 +14,7 @@ struct LockCell {
   std::array<double, 4> low, high;
 };
 
-/// What a look at a cell found.
+/// The finding on a cell.
 struct LockLook {
   bool proved = false;
   bool hopeless = false;  ///< in the middle the inequality seems to fail: a matter of speed
@@ -28,8 +28,8 @@ class LockInequality {
 
   /// True only when no point of the cell has a level of at most L.
   [[nodiscard]] bool outside(const LockCell& cell) const;
-  /// `proved` is true only when the inequality of `left` holds for all (u, s) in the cell and all covariances
-  /// of level s or less, t being a level of their images.
+  /// `proved` is true only when the inequality of `left` is true for all (u, s) in the cell and all
+  /// covariances of level s or less, t being a level of their images.
   [[nodiscard]] LockLook look(const LockCell& cell) const;
 
  private:

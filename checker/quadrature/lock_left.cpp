@@ -14,7 +14,8 @@ Ball at_side(const Ball& way, std::size_t corner, std::size_t i) {
   return ((corner >> i) & 1U) != 0U ? way : -way;
 }
 
-/// Twice the level in the middle, and what its tangent there adds at the corners, once.
+/// Twice the level in the middle, and the change of the level's tangent from there to the corners, not
+/// doubled.
 struct TangentOfLevel {
   Ball twice_middle;
   LockCorners moved;
@@ -55,7 +56,7 @@ Ball left_of_errors(const LockSet& set, const LockMeanSquare& form, const std::a
   return square(y[0]) + square(y[1]) + square(y[2]) - form.rate * square(e[2] + set.bias[2]);
 }
 
-/// What its tangent in the middle adds along each variable, to the end of the box.
+/// The change of its tangent in the middle along each variable, to the end of the box.
 std::array<Ball, 3> tangent_of_errors(const LockSet& set, const LockMeanSquare& form, const LockBox& box) {
   const std::array<Ball, 3> e = errors_of(set.metric, box.middle);
   const std::array<Ball, 3> y = image_of_errors(form, e);

@@ -1,4 +1,4 @@
-// What the inequality of docs/gaussian.md, (6), has on its left side, l without d: over a box, from below.
+// The left side of the inequality of docs/gaussian.md, (6), l without d: a lower bound over a box.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ using LockCorners = std::array<Ball, kLockCorners>;
 
 /// For levels t of the images, one at each corner of a box: l there, for the inequality
 ///     E exp(|S (e+ - f)|^2/2) <= exp(l/2),  S = `next`, f = `offset`.
-/// Between the corners l is at least what is affine along each variable and has these values there, less
-/// something convex.
+/// Between the corners l is at least the function that is affine along each variable and has these values
+/// there, minus a convex one.
 struct LockLeft {
   Metric next;
   std::function<LockCorners(const LockBox&, const LockCorners&)> at_corners;

@@ -68,8 +68,8 @@ LockLevels::LockLevels(const LockSet& set, const Metric& next)
       below_(transformed_back(next, set.below)),
       level_of_(rough(centre_), rough(above_), rough(centre_inverse_), rough(below_)) {}
 
-// hi(t) less the image of hi(s), and the image of lo(s) less lo(t), with tangents along s for the images, and
-// chords along u, are affine in (u, s) but for -lo(t), which is concave in t. So the corners decide.
+// hi(t) minus the image of hi(s), and the image of lo(s) minus lo(t), with tangents along s for the images,
+// and chords along u, are affine in (u, s) except for -lo(t), which is concave in t. So the corners decide.
 bool LockLevels::is_level(const SquareMatrix<3>& upper, const SquareMatrix<3>& lower,
                           const Ball& level) const {
   const LockCovariance high = centre_ + level * above_;

@@ -25,9 +25,9 @@ class LockLevels {
   /// `next` is the metric of the coordinates in which the images are compared.
   LockLevels(const LockSet& set, const Metric& next);
 
-  /// Numbers at the corners of the box, none of them negative, for which the function t of (u, s) that is
-  /// affine along each variable and has these values at the corners is a level of the image of every
-  /// covariance of level s or less, everywhere in the box. False where none are found.
+  /// Finds numbers at the corners of the box, none of them negative, such that the function t of (u, s) that
+  /// is affine along each variable and has these values at the corners is a level of the image of every
+  /// covariance of level s or less, everywhere in the box. False when none are found.
   [[nodiscard]] bool find(const LockBox& box, const LockStep& step,
                           std::array<Ball, kLockCorners>& levels) const;
   /// The least level of the images in the middle of the box, roughly.

@@ -1,4 +1,4 @@
-// Gaussian noise, and what a set that is proved for it says about the probability of losing lock.
+// Gaussian noise, and the bound on the probability of losing lock from a set that is proved for it.
 #pragma once
 
 #include "checker/document/json_tree.hpp"
@@ -7,7 +7,7 @@
 
 namespace veritrack::checker {
 
-/// What a design assumes: independent Gaussian noise, at a signal of amplitude 1.
+/// A design's assumptions: independent Gaussian noise, at a signal of amplitude 1.
 struct GaussianNoise {
   Ball deviation;  ///< sigma of each channel
   Ball walk;       ///< deviation of the frequency's step, rad/sample
@@ -20,7 +20,7 @@ struct GaussianNoise {
 /// other than 0. `amplitude` is that of the signal.
 GaussianNoise read_gaussian_noise(const Tree& assume, const Ball& amplitude, Objections& objections);
 
-/// For a set that check_lock_set has not objected to, and starts of a level of at most `start`
+/// For a set without objections from check_lock_set, and starts of a level of at most `start`
 /// (lock_start.hpp): an upper bound on the probability that the state leaves the set at one of any N
 /// successive samples. At most 1, and 1 where nothing is proved.
 Ball probability_of_leaving(const LockSet& set, const Ball& start, const Ball& samples);

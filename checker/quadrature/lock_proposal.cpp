@@ -184,7 +184,7 @@ double propose_multiplier(const Ends& ends, const Matrix6& constant, double devi
   double at_left = value(left);
   double at_right = value(right);
   for (int step = 0; step < kSteps; ++step) {
-    // Where both say nothing, towards the middle of the range of sense: smaller multipliers first.
+    // Where neither gives a bound, towards the middle of the sensible range: smaller multipliers first.
     if (at_left >= at_right) {
       high = right;
       right = left;

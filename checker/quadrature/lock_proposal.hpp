@@ -1,5 +1,5 @@
 // Proposals in floating point for the cells of a set: a multiplier, a level of the images, weights. Nothing
-// rests on them: what is made of them is verified in balls.
+// rests on them: results that use them are verified in balls.
 #pragma once
 
 #include <array>
@@ -28,22 +28,22 @@ class LevelOf {
  public:
   /// P_0, D_h, P_0^-1 and D_l in the coordinates of the images.
   LevelOf(const Matrix3& centre, const Matrix3& above, const Matrix3& centre_inverse, const Matrix3& below);
-  /// "Not a number" where `lower` is not definite.
+  /// "Not a number" when `lower` is not definite.
   [[nodiscard]] double operator()(const Matrix3& upper, const Matrix3& lower) const;
 
  private:
   Matrix3 centre_, above_, centre_inverse_, below_;  ///< of D_h and D_l: L^-1, D = L L'
 };
 
-/// An affine function that is nowhere below numbers at the corners of a box in (u, s), in the middle and what
-/// half the width of each variable adds.
+/// An affine function that is nowhere below the numbers at the corners of a box in (u, s): its value in the
+/// middle, and its change over half the width of each variable.
 struct LevelPlane {
   double middle = 0.0;
   std::array<double, kSides + 1> along{};
 };
 LevelPlane plane_above(const std::array<double, 16>& levels);
 
-/// lock_form::left_over in doubles; minus infinity where it says nothing.
+/// lock_form::left_over in doubles; minus infinity where that gives no bound.
 double left_over(Matrix6 n);
 
 /// The entries at the two ends of s, without constants and multiplier, and l there.
@@ -51,13 +51,13 @@ struct Ends {
   std::array<Matrix6, 2> parts;
   std::array<double, 2> rest;
 };
-/// The multiplier for which the lesser of what is left over at the two ends is largest.
+/// The multiplier for which the smaller left_over of the two ends is largest.
 double propose_multiplier(const Ends& ends, const Matrix6& constant, double deviation, double r);
 /// The matrix for a multiplier.
 Matrix6 form(const Matrix6& parts, const Matrix6& constant, double rest,
              const lock_form::Factors<double>& factors);
 
-/// Weights for take_rest: how much each row has to do with what is left over, and a little more.
+/// Weights for take_rest: how much each row affects left_over, and a little more.
 std::array<double, lock_form::kSize> propose_weights(const Matrix6& n);
 
 }  // namespace veritrack::checker::lock_proposal

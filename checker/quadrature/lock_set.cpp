@@ -12,7 +12,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// The first row and column are zero but for the diagonal.
+/// The first row and column are zero except on the diagonal.
 bool amplitude_is_apart(const Matrix3& m) {
   return certainly_equal(m[0][1], zero) && certainly_equal(m[0][2], zero) && certainly_equal(m[1][0], zero) &&
          certainly_equal(m[2][0], zero);
@@ -62,7 +62,7 @@ std::pair<LockSet, bool> read_lock_set(const Tree& tree, bool leaks) {
   return {set, has_form};
 }
 
-/// What of the theorem's hypotheses is not proved; nothing when all are.
+/// The hypotheses of the theorem that are not proved; empty when all are.
 std::string refusal_of(const LockSet& set, const Design& design, const GaussianNoise& noise,
                        std::int64_t& cells) {
   if (!certainly_positive(set.metric.amplitude) || !certainly_positive(set.metric.phase) ||
@@ -97,8 +97,8 @@ std::string refusal_of(const LockSet& set, const Design& design, const GaussianN
 
 namespace {
 
-/// What the rounding of a step adds, from anywhere in the set where the level of the covariance is between
-/// two numbers.
+/// The contribution of the rounding of a step, from anywhere in the set where the level of the covariance is
+/// between two numbers.
 Rounding rounding_between(const LockSet& set, const Design& design, const Ball& samples, const Ball& from,
                           const Ball& to) {
   const Ball radius = root_of_non_negative(two * set.level - set.weight * square(from));

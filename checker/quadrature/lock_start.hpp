@@ -1,4 +1,4 @@
-// The level with which a tracker may start: the largest over the assumed start errors and covariances.
+// The level at which a tracker may start: the largest over the assumed start errors and covariances.
 #pragma once
 
 #include "checker/quadrature/lock_step.hpp"

@@ -47,7 +47,7 @@ LockCovariance lower_covariance(const LockSet& set, const Ball& s) {
 
 namespace {
 
-/// -x d x: the slope of (... + s d)^-1 where it is x.
+/// -x d x: the slope of (... + s d)^-1 where its value is x.
 LockCovariance slope_of_inverse(const LockCovariance& x, const LockCovariance& d) {
   return Ball(-1.0) * lock_covariance(congruent(whole(x), whole(d)));
 }
@@ -91,7 +91,7 @@ Lower3<Chord> carried(const LockCovariance& p, const Place& at, const Ball& kept
   return x;
 }
 
-/// Of a covariance, before the frame is turned to the next phase.
+/// The quantities of a covariance, before the frame is turned to the next phase.
 struct Image {
   std::array<Chord, 3> weight;     ///< r S^-1 = I - Phi_zz/r: 11, 12, 22
   std::array<Chord, 2> frequency;  ///< S^-1 Phi_z3 of the prediction = Phi_z3/r
@@ -192,7 +192,7 @@ LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::arra
   step.upper = turned(covariance_of(upper, filter.r), turn, at);
   step.lower_slope = turned(lower.slope, turn, at);
   step.upper_slope = turned(upper.slope, turn, at);
-  // The predicted estimate less the signal, in the frame of this sample: z - e^-i nu.
+  // The predicted estimate minus the signal, in the frame of this sample: z - e^-i nu.
   const Chord d1 = at.narrowed(z1 - turn.cosine);
   const Chord d2 = at.narrowed(e2 + sine);
   step.prediction = turned(d1, d2, turn);

@@ -20,14 +20,14 @@ struct LockCovariance {
   Ball p12 = {}, p13 = {};
 };
 
-/// What a certificate of the probability of losing lock rests on, docs/gaussian.md, section 4, at a signal of
-/// amplitude 1. The level of (e, P) is (|T e|^2 + gamma s^2)/2, s the level of P.
+/// The data behind a certificate of the probability of losing lock, docs/gaussian.md, section 4, at a signal
+/// of amplitude 1. The level of (e, P) is (|T e|^2 + gamma s^2)/2, s the level of P.
 struct LockSet {
   Metric metric;                        ///< T
   LockCovariance centre, above, below;  ///< P_0, D_h, D_l
   Ball weight, level, decay, drift;     ///< gamma, L, kappa, c_0
   Ball deviation, walk;                 ///< sigma of each channel; w, rad/sample
-  /// With a leak. e_0, of which the errors e are differences; and the frequencies of the signal, rad/sample.
+  /// With a leak: e_0, from which the errors e are measured, and the frequencies of the signal, rad/sample.
   std::array<Ball, 3> bias = {};
   Ball lowest_frequency = {}, highest_frequency = {};
 };
@@ -38,11 +38,11 @@ struct LockFilter {
   Ball epsilon = {};
 };
 
-/// Room for the rounding of a step: what it may change in |T e|, and in the level of the covariance.
-/// Part of the format.
+/// Room for the rounding of a step: the changes that it may make in |T e|, and in the level of the
+/// covariance. Part of the format.
 const Ball& lock_room();
 
-/// A symmetric matrix, its lower triangle.
+/// A symmetric matrix, by its lower triangle.
 template <typename S>
 using Lower3 = std::array<std::array<S, 3>, 3>;
 
@@ -50,7 +50,7 @@ LockCovariance operator+(const LockCovariance& x, const LockCovariance& y);
 LockCovariance operator*(const Ball& factor, const LockCovariance& x);
 LockCovariance inverse(const LockCovariance& p);
 Matrix3 whole(const LockCovariance& p);
-/// Its lower triangle counts.
+/// Only its lower triangle is used.
 LockCovariance lock_covariance(const Matrix3& p);
 /// hi(s) = P_0 + s D_h, and lo(s) = (P_0^-1 + s D_l)^-1.
 LockCovariance upper_covariance(const LockSet& set, const Ball& s);

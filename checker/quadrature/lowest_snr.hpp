@@ -1,4 +1,4 @@
-// The set of a certificate for another signal-to-noise ratio than the assumed one, and what follows from it.
+// The set of a certificate for another signal-to-noise ratio than the assumed one, and its consequences.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace veritrack::checker {
 
-/// Reads a set and proves of it what check_lock_set does, but for noise of the set's own deviation in place
-/// of the assumed one. Throws OutOfBudget.
+/// Reads a set and proves the same as check_lock_set, but for noise of the set's own deviation in place of
+/// the assumed one. Throws OutOfBudget.
 LockSet check_lowest_snr_set(const Tree& tree, const Design& design, const GaussianNoise& noise,
                              std::int64_t& cells, Objections& objections);
 
-/// What this set, when it was proved, says of the assumed starts: added to the promises. Objects to what the
-/// derivation says and this does not.
+/// Adds to the promises the statements of this set, when it was proved, on the assumed starts. Objects to
+/// every statement of the derivation that is not among these.
 void check_lowest_snr(const Tree& derivation, const Design& design, const GaussianNoise& noise,
                       const std::optional<LockSet>& set, Promises& promises, Objections& objections);
 

@@ -12,13 +12,14 @@
 
 namespace veritrack::checker {
 
-/// Reads the function and proves of it, for a set that check_lock_set has not objected to, that
-/// E U+ <= U + h (c - nu^2) wherever the level is at most L. Objects where that fails. Throws OutOfBudget.
+/// Reads the function and proves, for a set without objections from check_lock_set, that E U+ <= U + h (c -
+/// nu^2) wherever the level is at most L. Objects where that fails. Throws OutOfBudget.
 LockMeanSquare check_lock_mean_square(const Tree& tree, const Design& design, const LockSet& set,
                                       std::int64_t& cells, Objections& objections);
 
-/// What these, one for each of the sets when they were proved, say of the assumed starts: added to the
-/// promises, which must be those of "lock". Objects to what the derivation says and this does not.
+/// Adds to the promises, which must be those of "lock", the statements of these functions on the assumed
+/// starts, one function for each of the sets, when they were proved. Objects to every statement of the
+/// derivation that is not among these.
 void check_mean_square(const Tree& derivation, const GaussianNoise& noise, const std::vector<LockSet>& sets,
                        const std::vector<LockMeanSquare>& mean_squares, Promises& promises,
                        Objections& objections);

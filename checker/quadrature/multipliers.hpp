@@ -1,4 +1,4 @@
-// Proposals in double for the proof of the step inequality: any multipliers and any congruence will do.
+// Proposals in double for the proof of the step inequality: any multipliers and any congruence are valid.
 #pragma once
 
 #include "checker/quadrature/step_form.hpp"

@@ -1,4 +1,4 @@
-// A symmetric matrix over a box: affine in the way from the middle, and what is left beside that.
+// A symmetric matrix over a box: affine in the displacement from the middle, and a bound on the remainder.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ Ball rest_on_diagonal(const OverBox<Size>& m, const std::array<double, Size>& we
   }
   return sum / Ball(weights[i]);
 }
-/// The centre then stands for a matrix that is not above the one over the box, or not below it.
+/// The centre then represents a matrix that is not above the one over the box, or not below it.
 template <std::size_t Size>
 void take_rest(OverBox<Size>& m, const std::array<double, Size>& weights) {
   for (std::size_t i = 0; i < Size; ++i) {

@@ -83,15 +83,15 @@ Symmetric<S> turned(const Symmetric<S>& p, const S& sine, const S& cosine) {
   return p + turned_difference(p, sine, S(cosine - one), sine);
 }
 
-/// (a, psi, nu, P): everything that the tracker remembers, as its distance from the signal.
+/// (a, psi, nu, P): the whole state of the tracker, as its distance from the signal.
 template <typename S>
 struct PolarState {
   std::array<S, 3> error;
   Symmetric<S> covariance;
 };
 
-/// The next state, without noise, at a constant frequency. Of everything where the corrected estimate may
-/// have turned by a right angle.
+/// The next state, without noise, at a constant frequency. Balls of everything where the corrected estimate
+/// may have turned by a right angle.
 template <typename S>
 PolarState<S> polar_step(const Design& design, const PolarState<S>& x, const S& omega) {
   const Ball retention = one - design.epsilon;

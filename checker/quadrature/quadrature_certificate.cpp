@@ -40,7 +40,7 @@ class QuadratureVerifier {
     const Guarantee guarantee(design, wording, objections);
     add("design", objections);
     if (!objections.empty()) {
-      return;  // nothing is said of what is no design
+      return;  // no statement is made about an invalid design
     }
     for (const Tree& set : certificate_.at("certified_sets").elements()) {
       objections.clear();
@@ -92,7 +92,7 @@ class QuadratureVerifier {
     add("lock set", objections);
   }
 
-  /// Of every set, or of none: what is said of one alone bounds nothing over the band.
+  /// For every set, or for none: a statement on one alone bounds nothing over the band.
   void check_lock_mean_squares() {
     std::vector<const Tree*> forms;
     for (std::size_t k = 0; k < lock_sets_.size(); ++k) {
@@ -184,7 +184,7 @@ class QuadratureVerifier {
 
   void check_all_claims(const Guarantee& guarantee) {
     if (derivations_.count("capture") != 0) {
-      // The starts had to be followed, and what is claimed of them rests on that.
+      // The starts had to be followed, and the claims about them rest on that.
       const Captured& found = captured_["capture"];
       promises_.bound = found.verdict == Verdict::proved ? found.bound : std::nullopt;
       promises_.settled = found.settled;

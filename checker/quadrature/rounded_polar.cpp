@@ -1,4 +1,4 @@
-// What rounding does to the state as the proofs see it: polar_rounding and rounding_share of
+// The effect of rounding on the state in the coordinates of the proofs: polar_rounding and rounding_share of
 // rounded_step.hpp.
 #include "checker/quadrature/rounded_step.hpp"
 

@@ -11,8 +11,7 @@ Ball length(const Ball& x, const Ball& y) {
   return sqrt(square(x) + square(y));
 }
 
-/// What the program computes of a covariance: the entries of M on and beside the diagonal, a component of u,
-/// d.
+/// The program's values for a covariance: the entries of M on and beside the diagonal, a component of u, d.
 struct Factors {
   RoundedValue diagonal, beside, u, d;
 };

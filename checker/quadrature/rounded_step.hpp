@@ -1,6 +1,6 @@
-// How far a step of the tracker in double precision can be from the exact step: the checker's own
-// transcription of the operations of trackers/quadrature/quadrature_ekf.hpp, `step`, with what is known of
-// the size of each result (docs/rounding.md, section 5).
+// Bounds on the distance of a step of the tracker in double precision from the exact step: the checker's own
+// transcription of the operations of trackers/quadrature/quadrature_ekf.hpp, `step`, with a bound on the size
+// of each result (docs/rounding.md, section 5).
 //
 // Assumed of the program: + - * / round to nearest in IEEE 754 double precision, sine and cosine are within
 // one unit in the last place. Lengths are relative to the true amplitude, which must be between 2^-60 and
@@ -17,8 +17,8 @@ struct Filter {
   Ball amplitude;
 };
 
-/// Bounds on what the program holds before the step, in any orientation of the plane: balls of which the
-/// upper ends count, of `least_...` the lower.
+/// Bounds on the program's values before the step, in any orientation of the plane: the upper ends of these
+/// balls are used, and the lower ends of `least_...`.
 struct Held {
   Ball z;            ///< |z|
   Ball frequency;    ///< |x3|, rad/sample
@@ -29,10 +29,10 @@ struct Held {
   Ball least_d, most_d;  ///< d
 };
 
-/// What is known of the factors of a P with lower <= P <= upper in the Loewner order, into `held`.
+/// Sets in `held` the bounds on the factors of a P with lower <= P <= upper in the Loewner order.
 void add_covariance(const Matrix3& lower, const Matrix3& upper, Held& held);
 
-/// Bounds on |program's step - exact step|: of z the length, of P the norms of its blocks.
+/// Bounds on |program's step - exact step|: the length for z, the norms of the blocks for P.
 struct Rounding {
   Ball z, frequency, p_zz, p_z3, p_33;
   [[nodiscard]] bool finite() const {
@@ -43,8 +43,8 @@ struct Rounding {
 /// Balls of everything when there is no bound.
 Rounding rounded_step(const Filter& filter, const Held& held);
 
-/// The same of amplitude and phase (rad) and of the covariance in the frame of the estimated phase, when the
-/// exact step ends with |z| >= least_z, |P_zz| <= most_zz and P_33 <= most_33.
+/// The same for amplitude and phase (rad) and for the covariance in the frame of the estimated phase, when
+/// the exact step ends with |z| >= least_z, |P_zz| <= most_zz and P_33 <= most_33.
 struct PolarRounding {
   Ball amplitude, phase, frequency;
   Ball p_zz, p_z3, p_33;

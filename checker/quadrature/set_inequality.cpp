@@ -12,8 +12,8 @@ namespace {
 
 using namespace step_form;
 
-/// (s, beta, d1, d2): a = s A cos(beta), chi = s C sin(beta), and the corrected estimate d away from the one
-/// that the mean gain corrects without noise.
+/// (s, beta, d1, d2): a = s A cos(beta), chi = s C sin(beta), and the corrected estimate is d away from the
+/// one that the mean gain gives without noise.
 struct Cell {
   std::array<double, kVariables> low, high;
   [[nodiscard]] double middle(std::size_t i) const { return 0.5 * (low[i] + high[i]); }
@@ -63,7 +63,7 @@ Matrix<Ball> combined(const Form<S>& form, double lambda, const Part& part) {
   return m;
 }
 
-/// Multipliers, and a C for which C m C' is near the identity in the middle of a cell: any will do.
+/// Multipliers, and a C for which C m C' is near the identity in the middle of a cell: any are valid.
 struct Proposal {
   double lambda, tau;
   Matrix<Ball> inverse_factor;
@@ -137,7 +137,7 @@ class CellCover {
       if (!std::isfinite(reach)) {
         return false;
       }
-      // Where nothing is left any one point will do: there is nothing to be proved.
+      // Where nothing is left any one point is enough: there is nothing to be proved.
       cell.low[2 + i] = std::clamp(cell.low[2 + i], -reach, reach);
       cell.high[2 + i] = std::clamp(cell.high[2 + i], -reach, reach);
     }

@@ -8,7 +8,7 @@
 namespace veritrack::checker {
 
 /// True only when it is: condition (a) of the theorem of docs/contraction.md. `cells` counts the boxes that
-/// were looked at.
+/// were examined.
 bool contracts(const Setting& setting, std::int64_t& cells);
 
 /// True only when every step from the set keeps the covariance between its bounds: condition (b).

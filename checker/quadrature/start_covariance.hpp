@@ -17,15 +17,15 @@ struct StartCovariance {
 
   /// All of them lie strictly between two bounds.
   [[nodiscard]] bool between(const Covariance<Ball>& lower, const Covariance<Ball>& upper) const;
-  /// A ball, entry by entry, that contains all of them: with D the highest less the lowest, P_ij is within
+  /// A ball, entry by entry, that contains all of them: with D the highest minus the lowest, P_ij is within
   /// sqrt(D_ii D_jj) of that of the lowest.
   [[nodiscard]] Matrix3 enclosure() const;
 };
 
-/// The one or the range that the design gives, or, where it says "steady-state" or gives multiples of it, the
-/// matrix and the multiples in the evidence "start-covariance" of the derivation: these are those of the
-/// design, or contain that matrix itself. Nothing when there is neither. Objects to a matrix that is not
-/// positive definite.
+/// The matrix or the range that the design gives, or, where it says "steady-state" or gives multiples of it,
+/// the matrix and the multiples in the evidence "start-covariance" of the derivation: these multiples are
+/// those of the design, or contain that matrix itself. Empty when there is neither. Objects to a matrix that
+/// is not positive definite.
 std::optional<StartCovariance> read_start_covariance(const Tree& derivation, const Design& design,
                                                      Objections& objections);
 

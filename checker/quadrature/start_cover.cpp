@@ -31,9 +31,9 @@ bool is_apart(const StartBox& box, const StartBox& region) {
 
 using BoxList = std::vector<const StartBox*>;
 
-/// What no box contains as a whole is cut along a side of a box, the one nearest to its middle, and both
-/// parts are covered, or it is not covered. `cuts` are left: boxes of an engineer's starts need a few dozen,
-/// and a list made to need thousands would fill the memory.
+/// A region that no box contains as a whole is cut along a side of a box, the one nearest to its middle, and
+/// both parts are covered, or it is not covered. `cuts` is the number of cuts left: boxes of an engineer's
+/// starts need a few dozen, and a list made to need thousands would fill the memory.
 bool is_covered(const StartBox& region, const BoxList& boxes, int cuts) {
   spend(static_cast<std::int64_t>(boxes.size() * sizeof(const StartBox*)));
   BoxList near;

@@ -19,11 +19,12 @@ struct StartBox {
 /// Every point of the region lies in one of the boxes.
 bool covers(const StartBox& region, const std::vector<StartBox>& boxes CHECKER_PLACE);
 
-/// Two halves along the side that is longest, an error of the frequency counting four times as much as one of
-/// the phase; any side will do.
+/// Two halves along the longest side, an error of the frequency counting four times as much as one of the
+/// phase; any side is valid.
 std::pair<StartBox, StartBox> halves(const StartBox& box);
 
-/// Boxes of starts, each in the set that is shifted by so many turns after so many samples, at a level.
+/// Boxes of starts, each with the number of samples after which its starts are in the set, the turns by which
+/// that set is shifted, and the level there.
 struct Cover {
   std::vector<StartBox> boxes;
   std::vector<int> samples;

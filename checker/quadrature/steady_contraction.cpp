@@ -38,7 +38,7 @@ Range bias_of(const std::vector<SteadyCell>& branch) {
   return {low.value_or(Ball::everything()), high.value_or(Ball::everything())};
 }
 
-/// What the certificate says of the assumed starts, which is as far as they are followed.
+/// The certificate's statement on the assumed starts; they are followed as far as that.
 SteadyStartClaim start_claim(const Tree& claimed) {
   const Tree& quantities = claimed.at("quantities");
   const auto said = [&](const char* name) {
@@ -53,7 +53,7 @@ SteadyStartClaim start_claim(const Tree& claimed) {
   return {said("capture_samples"), level, said("frequency_error_bound"), said("settling_samples")};
 }
 
-/// How large the sets are.
+/// The size of the sets.
 void add_radii(const SteadyPieces& cover, Derivation& found) {
   const std::array<Ball, 3> radii = error_radii(cover);
   found.quantities.push_back({"frequency_error_radius", radii[2]});
@@ -61,7 +61,7 @@ void add_radii(const SteadyPieces& cover, Derivation& found) {
   found.quantities.push_back({"amplitude_error_radius", radii[0]});
 }
 
-/// What the sets and the starts that enter them give.
+/// The promises of the sets and of the starts that enter them.
 void add_whole(const SteadyPieces& whole, const std::optional<SteadyStart>& start, const Promises& promises,
                Derivation& found) {
   const Ball nothing = Ball::everything();
@@ -87,7 +87,7 @@ void add_whole(const SteadyPieces& whole, const std::optional<SteadyStart>& star
 
 Promises check_steady_contraction(const Tree& claimed, const Design& design, std::int64_t& cells,
                                   Objections& objections) {
-  // Wide cells are few, narrow ones say more of the steady state.
+  // Wide cells are few; narrow ones enclose the steady state more tightly.
   const auto branch = steady_branch(design, 0.3, 3e-5);
   const auto fine = branch ? steady_branch(design, 0.05, 2e-5) : std::nullopt;
   const Tree* evidence = claimed.find("evidence");

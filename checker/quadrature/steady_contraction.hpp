@@ -9,7 +9,8 @@
 
 namespace veritrack::checker {
 
-/// Objects to what of the derivation "contraction" its sets do not prove over the band of frequencies.
+/// Objects to every statement of the derivation "contraction" that its sets do not prove over the band of
+/// frequencies.
 Promises check_steady_contraction(const Tree& derivation, const Design& design, std::int64_t& cells,
                                   Objections& objections);
 

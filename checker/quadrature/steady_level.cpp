@@ -8,7 +8,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Where in the cell, from its middle: x, y, and the frequency.
+/// The place in the cell, from its middle: x, y, and the frequency.
 using Way = std::array<Ball, kSides>;
 enum Side : std::size_t { kX, kY, kFrequency };
 
@@ -24,7 +24,7 @@ Ball largest(const Chord& a, const Chord& b, const Chord& c, const Way& way) {
   return larger_eigenvalue(over(a, way), over(b, way), over(c, way)).upper();
 }
 
-/// What covariance and noise may add to a step under the mean gain: upper bounds over a cell.
+/// Contributions of covariance and noise to a step under the mean gain: upper bounds over a cell.
 struct Added {
   bool meaningful = false;
   Ball turn;                  ///< on |arg z - arg of the mean z|/s
@@ -32,10 +32,10 @@ struct Added {
   Ball remainder;             ///< on |T (J - J') (D y / r + K v / s)|, J' the Jacobian at the mean estimate
 };
 
-/// The corrected estimate is within `radius` of the mean one, by what D y / r and K v / s do together, and
-/// the part across turns it. Of the Jacobian of (|z|, arg z), averaged over the way, the rows are those at
-/// the mean estimate and up to half the radius times the bounds 1/|z| and 1/|z|^2 on their derivatives. The
-/// length of y is up to eta + sqrt(spread) |v|, and (a + b)^2 <= (1 + theta) a^2 + (1 + 1/theta) b^2.
+/// D y / r and K v / s together keep the corrected estimate within `radius` of the mean one, and the part
+/// across turns it. The rows of the Jacobian of (|z|, arg z), averaged over the way, are those at the mean
+/// estimate plus up to half the radius times the bounds 1/|z| and 1/|z|^2 on their derivatives. The length of
+/// y is up to eta + sqrt(spread) |v|, and (a + b)^2 <= (1 + theta) a^2 + (1 + 1/theta) b^2.
 Added added(const SteadySetting& setting, const SteadyLevel& level, const SteadyStep<Chord>& step,
             const Way& way) {
   const TriangularMetric& t = setting.metric;
@@ -68,8 +68,8 @@ Added added(const SteadySetting& setting, const SteadyLevel& level, const Steady
   return result;
 }
 
-/// By how much the deviation of the covariance changes when the turn changes from the mean one by its reach:
-/// the derivative of U(-a) P U(-a)', P between the covariances after the step.
+/// The change of the deviation of the covariance when the turn changes from the mean one by its reach: the
+/// derivative of U(-a) P U(-a)', P between the covariances after the step.
 Symmetric<Ball> reach_of(const SteadyPlace<Chord>& place, const Symmetric<Chord>& deviation, const Way& way,
                          const Ball& turn) {
   Symmetric<Ball> after;
@@ -83,7 +83,7 @@ Symmetric<Ball> reach_of(const SteadyPlace<Chord>& place, const Symmetric<Chord>
                                       -(two * after[k12]), -after[k13], zero});
 }
 
-/// Adds how badly slopes are known over a cell, in all three directions, when an entry counts so much.
+/// Adds the uncertainty of the slopes over a cell, in all three directions, with this weight of an entry.
 void add_blur(std::array<double, kSides>& blur, const Chord& entry, const Way& way, double weight) {
   for (std::size_t k = 0; k < kSides; ++k) {
     blur[k] += weight * mag_get_d(arb_radref(entry.by[k].raw())) * mag_get_d(arb_radref(way[k].raw()));
@@ -110,7 +110,7 @@ std::size_t most_blurred(const Symmetric<Chord>& low, const Symmetric<Chord>& hi
   return most(blur);
 }
 
-/// Into how many parts turns of so many rad are cut.
+/// The number of parts into which turns of this many rad are cut.
 int parts_of(double reach) {
   return reach < 0.02 ? 1 : reach < 0.1 ? 3 : 5;
 }
@@ -166,7 +166,7 @@ std::vector<Way> ways_to_corners(const DiscCell& cell, const Way& middle) {
   return ways;
 }
 
-/// The values there, with whichever slopes there are.
+/// The values there, with whichever slopes exist.
 template <std::size_t N>
 std::array<Ball, N> moved_by(const std::array<Chord, N>& row, const Way& way) {
   std::array<Ball, N> moved;
@@ -187,8 +187,8 @@ void take_slopes(Row<Chord>& row, SteadyLimits& limits) {
   }
 }
 
-/// What is left of a rate for the errors of a cell decides about all of its (x, y), by one set of multipliers
-/// or another.
+/// The remainder of a rate for the errors of a cell decides about all of its (x, y), with one set of
+/// multipliers or another.
 struct ErrorCheck {
   bool contracts = false;
   bool hopeless = false;  ///< not even the middle of the cell does
@@ -275,7 +275,7 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
   row[kEta] = more.eta_factor * row[kEta];
   row[kEta].centre += more.eta_rest;
 
-  // What slew, rounding and the remainder leave of the level for the errors, and for the covariance.
+  // The remainder of the level for the errors, and for the covariance, after slew, rounding and `remainder`.
   const Ball left = level.error_rate - more.remainder;
   const Ball& share = level.covariance_rate;
   // cannot bind (share): below zero it would ask for a lower bound above the upper one.

@@ -14,11 +14,11 @@
 
 namespace veritrack::checker {
 
-/// A level, and what acts on the tracker.
+/// A level, and the disturbances of the tracker.
 struct SteadyLevel {
   Ball level;
-  /// Lower bounds on what slew and rounding leave of next level / level: for e+ - e* in the
-  /// metric, and for P+ - P* as a share of its bounds.
+  /// Lower bounds on the remainder of next level / level after slew and rounding: for e+ - e* in the metric,
+  /// and for P+ - P* as a share of its bounds.
   Ball error_rate, covariance_rate;
   Ball noise;  ///< |v| <= noise
 };
@@ -34,18 +34,18 @@ class SteadyCover {
   bool maps_into_next(const SteadyLevel& level);
   /// So far.
   [[nodiscard]] std::int64_t cells() const { return cells_; }
-  /// That of the last level.
+  /// The division of the last level.
   [[nodiscard]] const DiscDivision& division() const { return division_; }
 
  private:
   bool is_proved(const SteadyLevel& level, const DiscCell& cell, std::size_t node, int depth);
-  /// `side` is where to cut a cell for which it fails.
+  /// `side` is the side along which to cut a cell where it fails.
   bool proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side);
 
   const SteadySetting& setting_;
   const SteadyCell& steady_;
   DiscDivision division_;
-  /// Of this level, by the ranges of x and of the frequency, which are all that they depend on.
+  /// For this level, by the ranges of x and of the frequency; they depend on nothing else.
   std::map<std::array<double, 4>, SteadyUpdate<Chord>> updates_;
   Multipliers multipliers_;  ///< of the last cell: where to begin
   std::int64_t cells_ = 0;

@@ -125,7 +125,7 @@ std::vector<SteadyPieces> check_steady_covers(const Tree& evidence, const Design
     if (piece) {
       ends.push_back(*piece);
     }
-    // Of no steady state at all every set is true.
+    // Without any steady state every set would be true.
     cover.verified = cover.verified && cover.pieces.back().set.verified && !cover.pieces.back().cells.empty();
   }
   finish();

@@ -20,14 +20,14 @@ struct SteadyPiece {
 };
 
 /// Sets of one purpose. When verified, each frequency of the band belongs to a piece whose set is verified
-/// there; several pieces are without slew.
+/// there; there are several pieces only without slew.
 struct SteadyPieces {
   std::string name;
   std::vector<SteadyPiece> pieces;
   bool verified = false;
 };
 
-/// The steady states over the band, in wide cells, and in narrow ones, which know them better.
+/// The steady states over the band, in wide cells, and in narrow ones, which enclose them more tightly.
 struct SteadyBranches {
   std::vector<SteadyCell> wide, narrow;
 };
@@ -36,7 +36,7 @@ struct SteadyBranches {
 std::vector<SteadyCell> part_of(const std::vector<SteadyCell>& branch, const Ball& from, const Ball& to);
 
 /// Checks all sets of the evidence. Those with `from` and `to` that follow each other and have the same name
-/// are one cover; a set without is one for the whole band. What fails is an objection.
+/// are one cover; a set without them is a cover of the whole band. Each failure is an objection.
 std::vector<SteadyPieces> check_steady_covers(const Tree& evidence, const Design& design,
                                               const SteadyBranches& branches, std::int64_t& cells,
                                               Objections& objections);

@@ -59,7 +59,7 @@ std::optional<std::array<Vector<N>, M>> solve(Square<N> m, std::array<Vector<N>,
   return b;
 }
 
-/// Everything in double: X_i of what is hidden, of the spread and of the noise, and their weights.
+/// Everything in double: X_i of the hidden part, of the spread and of the noise, and their weights.
 constexpr std::size_t kGains = 3;
 constexpr std::size_t kCell = 3;  ///< the index of tau after mu, lambda and sigma
 using Four = Vector<4>;
@@ -193,7 +193,7 @@ Four newton_step(const Parts& parts, const Four& m, const Rate& rate) {
       by_logarithms[i][j] = m[i] * m[j] * (curvature[i][j] + 2.0 * dot((*moved)[i], cross[j]));
     }
   }
-  // It is convex in the multipliers; of what logarithms add only what is positive is taken.
+  // It is convex in the multipliers; only the positive part of the logarithms' contribution is taken.
   for (std::size_t i = 0; i < 4; ++i) {
     by_logarithms[i][i] += std::fmax(m[i] * slope[i], 0.0) + 1e-6 * std::fabs(fall[i]) + 1e-12;
   }
@@ -280,7 +280,7 @@ Proposal propose(const Row<Ball>& row, const SteadyLimits& limits) {
   const Row<double> weights = weights_of(best, m, row);
   const double left = limits.rate_squared.near() - best.squared;
   for (std::size_t k = 0; k < kGains && left > 0.0; ++k) {
-    constexpr double kShare = 0.1;  // of what is left, for each of the multipliers
+    constexpr double kShare = 0.1;  // of the slack, for each of the multipliers
     m[k] += std::fmin(kShare * left / parts.weights[k], m[k]);
   }
   return {best.squared, {m[0], m[1], m[2], m[kCell]}, weights};

@@ -9,7 +9,7 @@
 
 namespace veritrack::checker {
 
-/// What the errors' inequality looks at, in one row: moved - S (x, y) (3), gram (6), noise (6, line by line)
+/// The entries of the errors' inequality, in one row: moved - S (x, y) (3), gram (6), noise (6, line by line)
 /// and the bound on |y|^2.
 enum Column : std::size_t { kGram = 3, kNoise = 9, kEta = 15, kColumns = 16 };
 template <typename S>
@@ -28,7 +28,7 @@ Row<S> row_of(const SteadyStep<S>& step) {
   return row;
 }
 
-/// What is left of the level, squared, and what does not change over a cell.
+/// The remainder of the level, squared, and the quantities that do not change over a cell.
 struct SteadyLimits {
   Ball rate_squared;
   Ball noise_squared;  ///< of v / s
@@ -43,8 +43,8 @@ struct Multipliers {
   double hidden = 0.0, spread = 0.0, noise = 0.0, cell = 0.0;
 };
 
-/// The least rate of steps that multipliers prove, as far as double precision can tell, and these, moved to
-/// where something is left of what there is to spare.
+/// The least rate of steps that multipliers prove, approximately (in double precision), and these
+/// multipliers, moved so that some slack remains.
 struct Proposal {
   double rate_squared;
   Multipliers multipliers;

@@ -77,7 +77,7 @@ bool stays_definite(const SteadySetting& s, const std::vector<SteadyCell>& branc
   });
 }
 
-/// How far the slew carries the steady state in a sample: in the metric, and as a share of the bounds.
+/// The displacement of the steady state by the slew in a sample: in the metric, and as a share of the bounds.
 struct Motion {
   Ball errors = zero, covariance = zero;
 };
@@ -100,7 +100,7 @@ Motion motion_of(const SteadySet& set, const std::vector<SteadyCell>& branch) {
   return motion;
 }
 
-/// What rounding adds to a step from anywhere in the set.
+/// The contribution of rounding to a step from anywhere in the set.
 Motion rounding_of(const SteadySet& set, const std::vector<SteadyCell>& branch, const Design& design) {
   const SteadySetting& s = set.setting;
   const auto inverse = s.metric.inverse();
@@ -142,7 +142,7 @@ Motion rounding_of(const SteadySet& set, const std::vector<SteadyCell>& branch, 
           max(rounding_share(matrix_of(s.below), polar), rounding_share(matrix_of(s.above), polar))};
 }
 
-/// What of the set's promise is not proved; nothing when all of it is.
+/// The parts of the set's promise that are not proved; empty when all are.
 std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, const Design& design,
                        std::int64_t& cells) {
   SteadySetting& s = set.setting;

@@ -13,7 +13,8 @@ namespace veritrack::checker {
 
 /// Omega_s(omega) = {|T (e - e*)| <= s} x {-s below <= P - P* <= s above}, 0 < s <= 1. When verified: while
 /// the frequency stays in the band, a state of Omega_s, s one of `levels`, is followed by one of Omega_(next
-/// level), in the last level by one of the same, under noise up to `noise` and slew up to `slew`.
+/// level), and a state of the last level by one of the same level, under noise up to `noise` and slew up to
+/// `slew`.
 struct SteadySet {
   std::string name;
   SteadySetting setting;
@@ -23,7 +24,7 @@ struct SteadySet {
 };
 
 /// Reads a set from the evidence of a derivation and proves its promise over the branch, from nothing but the
-/// design. What fails is an objection, and the set is not verified.
+/// design. Each failure is an objection, and the set is then not verified.
 SteadySet check_steady_set(const Tree& evidence, const Design& design, const std::vector<SteadyCell>& branch,
                            std::int64_t& cells, Objections& objections);
 

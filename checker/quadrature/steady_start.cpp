@@ -8,8 +8,8 @@ namespace {
 
 bool keeps(const SteadyStart& start, const SteadyStartClaim& claim) {
   const auto within = [](const Ball& value, const std::optional<Ball>& limit) {
-    // cannot bind (value): it only ends the search. What was found is returned as it is, and the
-    // certificate's numbers are compared with that.
+    // cannot bind (value): it only ends the search. The result is returned as it is, and the certificate's
+    // numbers are compared with it.
     return !limit || certainly_at_most(value, *limit);
   };
   return within(start.samples, claim.samples) && within(start.level, claim.level) &&
@@ -28,7 +28,7 @@ class Part {
         steady_(cell.at(frequency)) {}
 
   /// A level of the set that contains errors and covariances: balls of e, and all P from the lowest to the
-  /// highest in the Loewner order. Everything when none does.
+  /// highest in the Loewner order. A ball of everything when none does.
   [[nodiscard]] Ball level_of(const std::array<Ball, 3>& image, const Matrix3& lowest,
                               const Matrix3& highest) const {
     constexpr int kSteps = 40;
@@ -52,7 +52,8 @@ class Part {
     return level_of(image, covariance_.lowest, covariance_.highest).upper();
   }
 
-  /// What comes of a start at this level after so many samples, with errors up to `way` until then.
+  /// The result for a start that is at this level after `samples` samples, with errors up to `way` until
+  /// then.
   [[nodiscard]] SteadyStart from(int samples, const Ball& level, const Ball& way, const Ball& bias) const {
     const std::vector<Ball>& levels = set_.levels;
     std::size_t j = 0;

@@ -10,7 +10,7 @@
 
 namespace veritrack::checker {
 
-/// Of all starts at all frequencies that were checked: upper bounds.
+/// Upper bounds over all starts at all frequencies that were checked.
 struct SteadyStart {
   Ball samples = zero;   ///< after which they are in Omega_1
   Ball level = zero;     ///< and at which level then
@@ -18,14 +18,14 @@ struct SteadyStart {
   Ball settling = zero;  ///< samples until they are in the last level
 };
 
-/// What the certificate says of them, which is as far as they are followed: frequencies are cut until it
-/// is proved.
+/// The certificate's statement on them. Starts are followed as far as that; frequencies are cut until it is
+/// proved.
 struct SteadyStartClaim {
   std::optional<Ball> samples, level, bound, settling;
 };
 
-/// Nothing when the branch has no cell, or some start does not certainly enter the set. Starts outside are
-/// followed, with the design's noise, when there is no slew. `covariance`: every P(0|0).
+/// Empty when the branch has no cell, or some start does not certainly enter the set. Starts outside are
+/// followed, with the design's noise, when there is no slew. `covariance`: contains every P(0|0).
 std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& set,
                                         const std::vector<SteadyCell>& branch,
                                         const StartCovariance& covariance, const SteadyStartClaim& claim);

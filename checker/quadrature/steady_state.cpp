@@ -40,7 +40,7 @@ Linearized linearized(const Design& design, const StateVector& x, const Ball& om
   return result;
 }
 
-/// Contains A^-1 b for every A = 1 - dG/dX of the Jacobians; nothing when one of them may be singular.
+/// Contains A^-1 b for every A = 1 - dG/dX of the Jacobians; empty when one of them may be singular.
 std::optional<StateVector> solved(const Linearized& local, const StateVector& b) {
   arb_mat_t a;
   arb_mat_t x;
@@ -89,8 +89,8 @@ StateVector midpoints(StateVector x) {
   return x;
 }
 
-/// How far the step moves the points of the curve middle + slope (omega - centre): at the centre, and by its
-/// derivative along the curve.
+/// The displacement by the step of the points of the curve middle + slope (omega - centre): at the centre,
+/// and by its derivative along the curve.
 StateVector residual(const Design& design, const SteadyCell& cell, const StateVector& curve) {
   const Ball offset = cell.frequency - cell.centre;
   const Linearized at = linearized(design, cell.middle, cell.centre);
@@ -167,7 +167,7 @@ std::optional<SteadyCell> steady_cell(const Design& design, const StateVector& s
 
 /// The steady state at frequency 0, where an exact estimate stays exact: P is followed from 0, where it grows
 /// in the Loewner order since the step is monotone, and from `large` I, where it falls because its first step
-/// falls. What is between them has entries that differ by at most the root of the two diagonal ones.
+/// falls. Matrices between them have entries that differ by at most the root of the two diagonal ones.
 std::optional<StateVector> steady_state_at_zero(const Design& design) {
   constexpr int kSteps = 400;
   const Ball large = Ball(1000.0) * (design.r + design.q1 + design.q2);

@@ -1,5 +1,5 @@
-// Where the tracker with a leak settles: a branch X*(omega) = (e*, P*) of fixed points of its step, over a
-// band of frequencies (docs/leak.md, section 1).
+// The steady states of the tracker with a leak: a branch X*(omega) = (e*, P*) of fixed points of its step,
+// over a band of frequencies (docs/leak.md, section 1).
 #pragma once
 
 #include <optional>
@@ -32,8 +32,8 @@ Symmetric<Ball> covariance_part(const StateVector& state);
 
 /// The branch over the design's frequencies in cells that join, none wider than `widest`, each within
 /// `accuracy` of nu* about a line (rad/sample): followed from the exact estimate at frequency 0, so that it
-/// is the same for all of them (where fixed points are regular branches do not meet). Nothing when it could
-/// not be.
+/// is the same for all of them (where fixed points are regular branches do not meet). Empty when it could not
+/// be followed.
 std::optional<std::vector<SteadyCell>> steady_branch(const Design& design, double widest, double accuracy);
 
 }  // namespace veritrack::checker

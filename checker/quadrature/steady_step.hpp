@@ -13,7 +13,7 @@
 // (step.hpp).
 //
 // (alpha, c) fixes two of three components of T b: the third is along T (0, -1, 1)', which changes m alone,
-// and m is kept but for the leak.
+// and m is unchanged except by the leak.
 #pragma once
 
 #include "checker/numbers/chord.hpp"
@@ -42,8 +42,8 @@ struct SteadySetting {
   Ball q1, q2, r, retention;
   TriangularMetric metric;
   Symmetric<Ball> below, above;
-  /// Of the orthonormal basis u1, u2, n of the space of T b, n along T (0, -1, 1)' and u1 along the first row
-  /// of T^-1: T b = x u1 + y u2 + t n has alpha = a11 x, c = a21 x + a22 y and m = m1 x + m2 y + m3 t.
+  /// For the orthonormal basis u1, u2, n of the space of T b, n along T (0, -1, 1)' and u1 along the first
+  /// row of T^-1: T b = x u1 + y u2 + t n has alpha = a11 x, c = a21 x + a22 y and m = m1 x + m2 y + m3 t.
   Ball a11, a21, a22, m1, m2, m3;
 
   /// Sets these; they are finite only if there is such a basis.
@@ -66,11 +66,11 @@ struct SteadySetting {
     m1 = u1[2] * inverse[2][2];
     m2 = u2[2] * inverse[2][2];
   }
-  /// What a unit of t leaves after a step.
+  /// The remainder of a unit of t after a step.
   [[nodiscard]] std::array<Ball, 3> hidden() const { return metric.image<Ball>(zero, zero, retention * m3); }
 };
 
-/// Where: the level, (x, y), and the steady state there.
+/// The place of a step: the level, (x, y), and the steady state there.
 template <typename S>
 struct SteadyPlace {
   S level, x, y;
@@ -78,7 +78,7 @@ struct SteadyPlace {
 };
 
 /// T (e+ - e*)/s = moved + t hidden + T J (D y / r + K v / s), D D' = spread, |y|^2 <= (i + v)' spread (i +
-/// v): what there is under the mean gain K.
+/// v): the error under the mean gain K.
 template <typename S>
 struct SteadyStep {
   std::array<S, 3> moved;                 ///< of the error with t = 0
@@ -95,7 +95,8 @@ struct SteadyStep {
   Symmetric<S> low, high;    ///< in the frame of the steady estimate
 };
 
-/// What the parts of a step share: the steady step, in which the estimate turns by -nu*, and the way from it.
+/// The quantities shared by the parts of a step: the steady step, in which the estimate turns by -nu*, and
+/// the deviation from it.
 template <typename S>
 struct SteadyTurn {
   S alpha, c, swing;                      ///< swing = s c
@@ -182,13 +183,13 @@ SteadyUpdate<S> steady_update(const SteadySetting& setting, const SteadyPlace<S>
   return update;
 }
 
-/// Where the mean gain takes the estimate: sets moved, turn, forward and along. Returns z.
+/// The estimate corrected by the mean gain: sets moved, turn, forward and along. Returns z.
 template <typename S>
 std::array<S, 2> move_estimate(const SteadySetting& setting, const SteadyPlace<S>& place,
                                const SteadyTurn<S>& turn, const SteadyUpdate<S>& update,
                                SteadyStep<S>& step) {
   const S& s = place.level;
-  // (z - z*)/s and the correction of the frequency over s: what belongs to 1, to alpha and to c.
+  // (z - z*)/s and the correction of the frequency over s: the coefficients of 1, alpha and c.
   const Ball over_r = one / setting.r;
   const Gain<S>& k = update.mean;
   const auto moved = [&](const Symmetric<S>& mean) -> std::array<S, 3> {
@@ -222,7 +223,8 @@ std::array<S, 2> move_estimate(const SteadySetting& setting, const SteadyPlace<S
   return z;
 }
 
-/// What noise and the spread of the gain add at the corrected estimate z: sets distance, noise and gram.
+/// The contributions of noise and of the spread of the gain at the corrected estimate z: sets distance, noise
+/// and gram.
 template <typename S>
 void add_gains(const SteadySetting& setting, const std::array<S, 2>& z, const SteadyUpdate<S>& update,
                SteadyStep<S>& step) {
@@ -255,7 +257,7 @@ void add_gains(const SteadySetting& setting, const std::array<S, 2>& z, const St
   step.gram = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
 }
 
-/// `update` is that of the place; it depends on x, the frequency and the level alone.
+/// `update` belongs to the place; it depends on x, the frequency and the level alone.
 template <typename S>
 SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& place,
                           const SteadyTurn<S>& turn, const SteadyUpdate<S>& update) {
@@ -281,10 +283,10 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
   return steady_step(setting, place, turn, steady_update(setting, place, turn));
 }
 
-/// What a turn by -(s `turn`) does to deviations of the covariance from P*.
+/// The effect of a turn by -(s `turn`) on deviations of the covariance from P*.
 template <typename S>
 struct DeviationTurn {
-  S sine, less;         ///< of the angle: its sine, and its cosine less 1
+  S sine, less;         ///< of the angle: its sine, and its cosine minus 1
   Symmetric<S> steady;  ///< (P* turned - P*)/s
 };
 

@@ -5,7 +5,7 @@
 //     |g| - |f|         = (f + g) . (g - f) / (|f| + |g|)
 //     arg g - arg f     = (atan(t)/t) f x (g - f) / (f . g),   t = f x g / f . g,
 // so that the errors after a step are exactly linear in the errors before it, the noise and the spread of the
-// gain, with coefficients that depend on where the step is.
+// gain, with coefficients that depend on the place of the step.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ struct Metric {
   Ball amplitude, phase, coupling, frequency;
 };
 
-/// A set to be checked: Omega = {|T e| <= R} x {lower <= P <= upper}, with what may happen in it.
+/// A set to be checked: Omega = {|T e| <= R} x {lower <= P <= upper}, with the noise, slew and rounding
+/// assumed in it.
 struct Setting {
   Ball q1, q2, r;
   Metric metric;
@@ -34,7 +35,7 @@ struct Setting {
   Ball radius, noise, slew;
   Ball rate, noise_gain, slew_gain;
   bool noisy = false, slewing = false;
-  /// What rounding may add to |T e| in a step, and to P as a share of `lower` (rounded_step.hpp).
+  /// Bounds on what rounding adds to |T e| in a step, and to P as a share of `lower` (rounded_step.hpp).
   Ball error_rounding, covariance_rounding;
 };
 
@@ -58,9 +59,9 @@ Update<S> update(const Setting& setting, const Covariance<Ball>& p, const S& rho
       {setting.r * k1, setting.r * k2, setting.r * k3, p.p33 + setting.q2 - square(p23) * over}, k1, k2, k3};
 }
 
-/// The two rows that take g - f to |g| - |f| and to arg g - arg f. `dot` must be certainly positive. Of all
-/// rows that do, these are the same for f and g exchanged, and so differ from the derivatives in the middle
-/// by terms of the second order: where they multiply vectors other than g - f, less is lost.
+/// The two rows that take g - f to |g| - |f| and to arg g - arg f. `dot` must be certainly positive. Among
+/// all such rows, these are the same for f and g exchanged, and so differ from the derivatives in the middle
+/// by terms of the second order: less is lost where they multiply vectors other than g - f.
 template <typename S>
 struct Secant {
   std::array<S, 2> length, angle;

@@ -34,7 +34,7 @@ std::array<S, 3> image(const Metric& t, const S& amplitude, const S& phase, cons
   return {t.amplitude * amplitude, t.phase * phase + t.coupling * frequency, t.frequency * frequency};
 }
 
-/// The errors (a, chi) that belong to a unit along and across the axis.
+/// The errors (a, chi) of a unit along and across the axis.
 using AxisErrors = std::array<std::array<Ball, 2>, 2>;
 
 /// Rows of the errors: rate^2 |T e|^2.
@@ -72,8 +72,8 @@ void add_mean_step(const Metric& t, const Correction<S>& c, const Secant<S>& lef
   }
 }
 
-/// What the spread of the gain adds to T e+, and the slew. `b` is T J for a correction along, across, and of
-/// the frequency.
+/// The contributions of the spread of the gain and of the slew to T e+. `b` is T J for a correction along,
+/// across, and of the frequency.
 template <typename S>
 void add_spread(const Setting& setting, const Covariance<S>& spread, const std::array<std::array<S, 3>, 3>& b,
                 Form<S>& form) {

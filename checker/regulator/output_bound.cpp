@@ -16,7 +16,7 @@ Ball largest_cosine(const Band& band) {
   return certainly_at_most(band.highest, pi()) ? max(abs(cos(band.lowest)), abs(cos(band.highest))) : one;
 }
 
-/// For one plant and one disturbance: y is 1/A_1 of what `driven` bounds, and straight noise.
+/// For one plant and one disturbance: y is 1/A_1 of the signal that `driven` bounds, plus direct noise.
 class ClosedLoop {
  public:
   ClosedLoop(const DelayPlant& plant, const FrequencyPromise& promise)
@@ -107,7 +107,7 @@ class ClosedLoop {
     return most;
   }
 
-  /// 2 |cos omega - cos(omega + t)| for |t| <= error and what the frequency changes in a sample.
+  /// 2 |cos omega - cos(omega + t)| for |t| <= error plus the change of the frequency in a sample.
   [[nodiscard]] Ball mismatch(const Piece& piece, const Ball& error) const {
     const Ball most = error + promise_.slew;
     if (!certainly_less(most, pi())) {
@@ -125,7 +125,7 @@ class ClosedLoop {
       return tone(piece, error) + mismatch(piece, error) * sum_ * promise_.noise;
     });
   }
-  /// What of the noise is in the output whatever the estimate.
+  /// The part of the noise that is in the output whatever the estimate.
   [[nodiscard]] Ball straight_noise() const {
     const Ball moved = two * promise_.slew * sum_ * inverse_.delay_norm();
     return (one + two * largest_cosine(promise_.band) + moved) * promise_.noise;
@@ -142,8 +142,8 @@ Ball decibels(const Ball& ratio) {
   return Ball(20.0) * log(ratio) / log(Ball(10.0));
 }
 
-/// At most this is the output from the sample on that the certificate names. A ball of everything where that
-/// is no sample after the tracker has settled and the memory is full.
+/// An upper bound on the output from the sample on that the certificate names. A ball of everything unless
+/// that sample comes after the tracker has settled and the memory is full.
 Ball settled_output(const ClosedLoop& loop, const DelayPlant& plant, const Settled& tracker,
                     const Ball& settling) {
   const double named = settling.lower_double();

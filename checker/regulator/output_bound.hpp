@@ -15,8 +15,8 @@ struct DelayPlant {
   std::vector<Ball> b;  ///< b_0, b_1, ..., as many as a_1, ...
 };
 
-/// The derivation as the checker finds it; `promise` is none when nothing of the tracker is verified.
-/// `settling`: from which sample on the certificate says that the output has settled, if it does.
+/// The derivation as the checker finds it; `promise` is empty when nothing about the tracker is verified.
+/// `settling`: the sample from which on the output has settled, if the certificate states one.
 Derivation output_bound(const DelayPlant& plant, const std::optional<FrequencyPromise>& promise,
                         const std::optional<Ball>& settling);
 

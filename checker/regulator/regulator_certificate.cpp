@@ -50,7 +50,7 @@ class RegulatorVerifier {
     const std::vector<Requirement> asked = read_requirements(objections);
     result_.parts.push_back({"design", objections});
     if (!objections.empty()) {
-      return;  // nothing is said of what is no design
+      return;  // no statement is made about an invalid design
     }
     verify_the_tracker();
     for (const Tree& derivation : certificate_.at("derivations").elements()) {
@@ -125,8 +125,7 @@ class RegulatorVerifier {
                          : "the input stays below " + asked_text("input_below") + " for ever";
   }
 
-  /// With the same checks as alone. A regulator inside a regulator is none of the trackers that promise
-  /// anything.
+  /// With the same checks as alone. A regulator inside a regulator is not a tracker with a promise.
   void verify_the_tracker() {
     Objections objections;
     if (tracker_.at("design").at("tracker").text() == design_.at("tracker").text()) {
@@ -179,7 +178,7 @@ class RegulatorVerifier {
     result_.parts.push_back({id, objections});
   }
 
-  /// What the verified derivation says of the quantity; a ball of everything when it says nothing.
+  /// The statement of the verified derivation on the quantity; a ball of everything without one.
   [[nodiscard]] Ball at_most(const char* name) const { return end_of(name, "hi"); }
   [[nodiscard]] Ball at_least(const char* name) const { return end_of(name, "lo"); }
   [[nodiscard]] Ball end_of(const char* name, const char* end) const {
@@ -256,7 +255,7 @@ class RegulatorVerifier {
       found.evidence.push_back(at_least_so(attenuation, at_least(attenuation)));
     };
     const Tree* settling = evidence.find("settling_samples");
-    // No less than is said of every sample says nothing.
+    // A bound that is no smaller than that for every sample adds nothing.
     if (settling != nullptr &&
         certainly_less(high_of(evidence.at("settled_output")), high_of(evidence.at("output_bound"))) &&
         upper_decimal(high_of(evidence.at("settled_output"))) !=
@@ -273,7 +272,7 @@ class RegulatorVerifier {
     return found;
   }
 
-  /// All that the tracker's own [require] asks together: every sentence of it that is so decided.
+  /// Everything that the tracker's own [require] asks: each of its sentences that is decided this way.
   [[nodiscard]] Claim tracker_claim() const {
     std::vector<Verdict> verdicts;
     for (const Requirement& requirement : inner_.requirements) {

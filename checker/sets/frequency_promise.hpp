@@ -1,4 +1,4 @@
-// What the certificate of a frequency tracker, once verified, promises to what runs on its estimate.
+// The promises of a frequency tracker's certificate, once verified, to a program that runs on its estimate.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace veritrack::checker {
 
-/// Every number is an upper bound, but for those that are assumed of the tone.
+/// Every number is an upper bound, except those that are assumed about the tone.
 struct FrequencyPromise {
   Ball amplitude, noise,
-      slew;   ///< constant; of a sample at most; of the frequency at most, rad/sample per sample
+      slew;   ///< constant; at most, for a sample; at most, for the frequency, rad/sample per sample
   Band band;  ///< rad/sample
   bool two_channels = false;  ///< the noise is a vector in the plane
   std::string between;        ///< "0.4 and 2.7 rad/sample"
@@ -24,8 +24,9 @@ struct FrequencyPromise {
   std::optional<Ball> ultimate;
 };
 
-/// Of a tracker's certificate whose verification is `found`. None unless all of it is verified, its guarantee
-/// is PROVED for the whole band, and the tracker sees the tone alone, with noise that has a bound.
+/// The promises of a tracker's certificate whose verification is `found`. Empty unless all of it is verified,
+/// its guarantee is PROVED for the whole band, and the tracker sees the tone alone, with noise that has a
+/// bound.
 std::optional<FrequencyPromise> frequency_promise(const Tree& certificate, const Verification& found,
                                                   Objections& objections);
 

@@ -1,4 +1,4 @@
-// Frequencies in sentences: in rad/sample and, of a design with a sample rate, in Hz.
+// Frequencies in sentences: in rad/sample and, for a design with a sample rate, in Hz.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@ namespace veritrack::checker {
 class FrequencyWords {
  public:
   FrequencyWords() = default;
-  /// Of [assume], whose sample_rate this reads.
+  /// Reads the sample_rate of [assume].
   FrequencyWords(const Tree& assume, Objections& objections);
 
   /// "0.05 rad/sample (63.7 Hz)": an upper bound, both rounded up.
   [[nodiscard]] std::string at_most(const Ball& radians) const;
   /// Likewise a lower bound, rounded down.
   [[nodiscard]] std::string at_least(const Ball& radians) const;
-  // The same of a decimal of the certificate.
+  // The same for a decimal of the certificate.
   [[nodiscard]] std::string at_most(const std::string& decimal) const;
   [[nodiscard]] std::string at_least(const std::string& decimal) const;
   /// "-1.7e-6 and 9e-7 rad/sample (-0.0028 and 0.0015 Hz)".

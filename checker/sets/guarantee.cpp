@@ -322,7 +322,7 @@ Claim Guarantee::size(const std::string& id, const Promises& promises) const {
   return found;
 }
 
-/// How large the set is, and, when it is the one that has a rate, how fast errors in it shrink.
+/// The size of the set and, when it is the one with a rate, the rate at which errors in it shrink.
 Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) const {
   const Tree& evidence = claim.at("evidence");
   const Ball reach = low_of(evidence.at("frequency_error_radius"));
@@ -350,7 +350,7 @@ Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) cons
   return found;
 }
 
-/// How much noise and how much slew are tolerated, one at a time.
+/// The tolerated noise and the tolerated slew, one at a time.
 Claim Guarantee::limits(const Tree& claim, const Promises& promises) const {
   const Tree& evidence = claim.at("evidence");
   Claim found;
@@ -369,7 +369,8 @@ Claim Guarantee::limits(const Tree& claim, const Promises& promises) const {
   return found;
 }
 
-/// The guarantee: that the error stays below the limit, what it never exceeds, and when it has settled.
+/// The guarantee: the error stays below the limit, the bound that it never exceeds, and the sample by which
+/// it has settled.
 Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
   Claim found;
   if (frequency_error_below_) {
@@ -378,7 +379,7 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
   } else {
     found.hypotheses = hypotheses(promises);
     found.statement = found.hypotheses + "the tracker keeps its lock for ever";
-    // The sentence names what the error never exceeds.
+    // The sentence names the bound that the error never exceeds.
     const Tree* named = claim.at("evidence").find("frequency_error_bound");
     found.verdict = named != nullptr && is_lock(promises.bound) && is_lock(high_of(*named)) ? Verdict::proved
                     : promises.wrong_lock                                                   ? Verdict::refuted
@@ -394,7 +395,7 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
   const std::vector<Quantity> settling = settling_evidence(promises);
   found.evidence.insert(found.evidence.end(), settling.begin(), settling.end());
   found.evidence.push_back({"ultimate_frequency_error", of(promises.ultimate), Sense::bounds_above});
-  // What the evidence says is checked beside this.
+  // The statements of the evidence are checked beside this.
   const Tree& evidence = claim.at("evidence");
   const Tree* bound = evidence.find("frequency_error_bound");
   if (bound != nullptr) {
@@ -402,7 +403,7 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
   }
   if (const auto settled = settling_claim(evidence)) {
     const std::string error = words_.at_most(settled->frequency_error);
-    // No less than what is said to be exceeded never says nothing.
+    // A bound that is no smaller than the one never exceeded adds nothing.
     if (bound == nullptr || (certainly_less(settled->frequency_error, high_of(*bound)) &&
                              error != words_.at_most(high_of(*bound)))) {
       found.statement +=
@@ -433,12 +434,12 @@ Claim Guarantee::mean_square(const Promises& promises) const {
   return found;
 }
 
-/// With Gaussian noise: how probable it is that the tracker loses lock, and what that means.
+/// With Gaussian noise: the probability that the tracker loses lock, and the meaning of that.
 Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) const {
   const Tree& evidence = claim.at("evidence");
   Claim found;
   found.is_summary = true;
-  // What is named in the sentence tells it from other locks, too.
+  // The bound named in the sentence also separates it from other locks.
   found.verdict = proved_if(promises.losing_lock.has_value() && is_lock(promises.lock_reach) &&
                             is_lock(high_of(evidence.at("lock_frequency_error"))));
   found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above},

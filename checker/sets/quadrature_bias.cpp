@@ -99,7 +99,7 @@ bool contains(const Matrix& outer, const Matrix& inner) {
   }
   return true;
 }
-/// The variances, and the minors of P that decide with them whether it is positive definite.
+/// The variances, and the minors of P that together decide whether it is positive definite.
 bool holds_covariances(const Matrix& x) {
   Matrix p(3, 3);
   slong at = 3;
@@ -187,7 +187,8 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
       }
     }
   }
-  // cannot bind (cells_.back().frequencies.upper()): what no cell contains is found in none below.
+  // cannot bind (cells_.back().frequencies.upper()): a frequency that no cell contains is found in none
+  // below.
   while (!lost_ && !certainly_at_most(frequency.upper(), cells_.back().frequencies.upper())) {
     const Ball end = cells_.back().frequencies.upper();
     lost_ = !add_cell(Ball::hull(end, end + Ball(kWidth)));

@@ -59,7 +59,7 @@ ToneState<S> tone_step(const ToneState<S>& x, const S& frequency, const S& phase
                       kept * x[2] - values.epsilon * frequency};
   const std::array<Row, 2> a{Row{cosine, none - sine, none - predicted[1]}, Row{sine, cosine, predicted[0]}};
 
-  // w = A'h, from the angle between h and the prediction: nothing is turned there and back.
+  // w = A'h, from the angle between h and the prediction: this avoids turning there and back.
   const auto [h2, h1] = sine_cosine(none - phase);
   const auto [w2, w1] = sine_cosine(none - phase - x[2]);
   const Row pw = times_p({w1, w2, amplitude * w2 - x[1] * w1});

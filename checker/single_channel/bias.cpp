@@ -13,7 +13,8 @@ namespace {
 
 const Ball everywhere = Ball::within(one);
 
-/// What "around" means, rad/sample, and as a double above it, with room for a frequency that no double is.
+/// The meaning of "around", rad/sample, and a double above it, with room for a frequency that is not a
+/// double.
 const Ball& around() {
   static const Ball width = from_decimal("0.002");
   return width;
@@ -111,7 +112,7 @@ std::vector<Ball> parts_of(const Ball& t) {
 }
 
 /// The smallest value over the phase, for each t: at least the `claimed` bound if that is true, and at most
-/// what it is at one phase.
+/// the value at one phase.
 Range smallest(const Component& component, const Ball& t, const Ball& distance, const Ball& claimed) {
   bool above = true;
   Ball attained = Ball(-HUGE_VAL);

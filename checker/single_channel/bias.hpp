@@ -1,9 +1,9 @@
-// The derivations single-channel-bias/...: the frequency error that is left in the steady state on a
+// The derivations single-channel-bias/...: the frequency error that remains in the steady state on a
 // noise-free tone.
 //
 // Without a leak (epsilon = 0, q1, q2, r > 0) it is zero at every frequency between 0 and pi. The exact
 // estimate, delta = nu = 0, stays exact: it predicts the signal, and there is no innovation. Its P follows
-// the Riccati equation of a linear system, F with the rows (1, 0, 0), (0, 1, 1), (0, 0, 1), of which the
+// the Riccati equation of a linear system: F has the rows (1, 0, 0), (0, 1, 1), (0, 0, 1), and the
 // measurement (cos phi, -sin phi, 0) turns by omega a sample. From any phase four samples determine the
 // state: they show a cos phi_k - (b + k c) sin phi_k, which solves a recursion of order four, and is zero for
 // all k only when a = b = c = 0, since sin omega is not 0. By compactness of the circle the system is
@@ -19,7 +19,7 @@
 
 namespace veritrack::checker {
 
-/// A bias that was established: at every frequency of `frequency`, rad/sample.
+/// An established bias: at every frequency of `frequency`, rad/sample.
 struct SteadyStateBias {
   Range frequency, mean;
 };

@@ -19,8 +19,8 @@ CellCovariance scaled(const Ball& factor, const CellCovariance& p);
 /// a - factor b.
 CellCovariance less(const CellCovariance& a, const Ball& factor, const CellCovariance& b);
 
-/// True only when the matrix is positive definite all over the cell: where it is at the corners, less a bound
-/// on what is quadratic, for what is linear is between its values there.
+/// True only when the matrix is positive definite all over the cell: when it is at the corners, minus a bound
+/// on the quadratic part, because the linear part is between its values there.
 bool definite(const CellCovariance& a CHECKER_PLACE);
 
 /// The step of the signal to a sample: it turns by the frequency (once), into the phase `here`.
@@ -34,7 +34,7 @@ CellCovariance predicted(const CellCovariance& p, const Turn& turn, const Ball& 
                          const SingleChannelDesign& design);
 
 /// After a measurement of the first component with variance r. A bound on P gives one on the updated P,
-/// whatever its sign, only where P11 + r > 0: nothing is known of the result elsewhere.
+/// whatever its sign, only where P11 + r > 0; elsewhere the result is unknown.
 CellCovariance updated(const CellCovariance& p, const Ball& r);
 
 /// A matrix without remainders, at least (sign 1) or at most (sign -1) every one that `p` contains.

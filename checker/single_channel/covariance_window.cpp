@@ -21,7 +21,7 @@ class Window {
         b_(sqrt(statement.signal_variance)) {}
 
   /// `phase` and `frequency` of a sample that is among the last shares.size() samples of the window: there
-  /// the phases should be known best. Before those samples, of which the lower bound is made, the signal
+  /// the phases should be known best. The lower bound is computed from those samples; before them the signal
   /// turns by `settling` radians.
   [[nodiscard]] bool is_proved(const CellSeries& phase, const CellSeries& frequency, double settling) const {
     constexpr double kMost = 50.0;
@@ -162,7 +162,7 @@ class WindowCover {
     if (level == kDeepest || --left_ < 0) {
       return false;
     }
-    // Where the middle alone fails, too, the window is too short. At first this is checked now and then;
+    // Where the middle alone also fails, the window is too short. At first this is checked now and then;
     // small cells allow a longer one.
     constexpr int kFirst = 12;
     constexpr int kNowAndThen = 4;
@@ -191,8 +191,8 @@ class WindowCover {
 bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
   constexpr std::size_t kLongest = 64;  // samples
   // cannot bind (d.q1, d.q2, d.r): without q1 the lower bound begins at zero along the amplitude and stays
-  // there, which signal_uncertainty exceeds; without q2 or r the inputs of the errors are not finite, and no
-  // set is kept.
+  // there, below signal_uncertainty; without q2 or r the inputs of the errors are not finite, and no set is
+  // kept.
   bool sensible = d.without_leak() && certainly_positive(d.q1) && certainly_positive(d.q2) &&
                   certainly_positive(d.r) && !s.shares.empty() && s.shares.size() <= kLongest &&
                   certainly_less(s.loosening, one) && certainly_not_negative(s.slew) &&
@@ -216,7 +216,7 @@ bool window_is_proved(const WindowStatement& statement, const SingleChannelDesig
   if (!is_sensible(statement, design)) {
     return false;
   }
-  // A phase and its opposite are the same to the covariance; a frequency and pi less it mirror each other.
+  // A phase and its opposite give the same covariance; a frequency and pi minus it are mirror images.
   const double period = pi().upper_double();
   const Ball mirrored = pi() - design.highest;
   const double lowest = -(-min(design.lowest, mirrored)).upper_double();

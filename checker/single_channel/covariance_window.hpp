@@ -9,7 +9,7 @@
 
 namespace veritrack::checker {
 
-/// What a certificate states of the windows of a set. e = (delta, nu) is the error in the frame of the true
+/// A certificate's statement on the windows of a set. e = (delta, nu) is the error in the frame of the true
 /// phase, relative to the amplitude and in rad/sample.
 struct WindowStatement {
   /// As long as e' P^-1 e <= radius^2 at every sample,
@@ -18,9 +18,9 @@ struct WindowStatement {
   Ball frequency_variance, signal_variance;
   Ball loosening;  ///< eta, a free number of the proof
   Ball slew;       ///< bound on |omega(k+1) - omega(k)|, rad/sample
-  /// What rounding does to P in a step, as a share of it; zero for a tracker in real arithmetic.
+  /// The change of P by rounding in a step, as a share of it; zero for a tracker in real arithmetic.
   Ball covariance_rounding;
-  /// of any covariance at least the part shares[m - 1] is due to its last m samples;
+  /// at least the part shares[m - 1] of any covariance is due to its last m samples;
   std::vector<Ball> shares;
   /// |nu| |delta + i nu/2| <= curvature e' P^-1 e, by a free weight;
   Ball curvature, curvature_weight;
@@ -35,7 +35,7 @@ struct WindowStatement {
 };
 
 /// True only when all of it is proved at every phase, for every frequency of the design's band. Counts the
-/// cells of phase and frequency that it takes.
+/// cells of phase and frequency that were needed.
 bool window_is_proved(const WindowStatement& statement, const SingleChannelDesign& design,
                       std::int64_t& cells);
 

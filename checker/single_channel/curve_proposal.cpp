@@ -16,7 +16,7 @@ State image(const State& x, double phase, double frequency, const TrackerValues<
   return tone_step(x, frequency, phase + frequency, values);
 }
 
-/// Where the tracker is at `phase` long after it started from an exact estimate.
+/// The state of the tracker at `phase` long after it started from an exact estimate.
 State settled(const TrackerValues<double>& values, double frequency, double phase) {
   constexpr int kSamples = 1000;
   State x{0.0, 0.0, 0.0, values.r + values.q1, 0.0, values.r + values.q1, 0.0, 0.0, values.q2};
@@ -26,7 +26,7 @@ State settled(const TrackerValues<double>& values, double frequency, double phas
   return x;
 }
 
-/// The coefficients of the curve through the settled states at so many phases.
+/// The coefficients of the curve through the settled states at this many phases.
 std::vector<State> settled_curve(const TrackerValues<double>& values, double frequency, slong harmonics) {
   const slong count = 4 * harmonics;
   std::vector<State> coefficients(static_cast<std::size_t>(2 * harmonics + 1), State{});
@@ -185,7 +185,7 @@ std::optional<CurveFamily> propose_curves(const TrackerValues<double>& values, d
     }
     return largest;
   };
-  // As many harmonics as matter.
+  // Only the harmonics that matter.
   std::vector<std::vector<State>> curves{settled_curve(values, center, kMost / 3)};
   if (!(size(curves[0].back()) < kSmall * size(curves[0].front()))) {
     curves = {settled_curve(values, center, kMost)};

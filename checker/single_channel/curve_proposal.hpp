@@ -1,5 +1,5 @@
-// Where the steady state of the single-channel tracker may be, and in which norms the tracker contracts about
-// it: simulated in doubles. Proposals, of which invariant_curve.cpp proves what it needs.
+// Proposals simulated in doubles: where the steady state of the single-channel tracker may be, and in which
+// norms the tracker contracts about it. invariant_curve.cpp proves what it needs of them.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct CurveFamily {
 /// The t at which a family is the simulated steady state: one for a single frequency.
 const std::vector<double>& curve_nodes(double half_width);
 
-/// Nothing when the simulation does not settle.
+/// Empty when the simulation does not settle.
 std::optional<CurveFamily> propose_curves(const TrackerValues<double>& values, double center,
                                           double half_width);
 

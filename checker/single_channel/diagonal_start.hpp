@@ -16,8 +16,8 @@ struct DiagonalStart {
   std::string words;  ///< for sentences, in signal units: "and with P(0|0) ..."
 };
 
-/// The evidence "start-covariance"; nothing without it. Objects to what is no covariance, or another one in
-/// another frame, and to multiples that do not contain M itself.
+/// The evidence "start-covariance"; empty without it. Objects to a matrix that is not a covariance, or that
+/// is a different one in another frame, and to multiples that do not contain M itself.
 std::optional<DiagonalStart> read_diagonal_start(const Tree& derivation, const SingleChannelDesign& design,
                                                  Objections& objections);
 

@@ -74,8 +74,8 @@ class ErrorSet {
     const Ball& pushed = pushed_.back();
     return two * pushed / (room + sqrt(square(room) - four * curvature_ * sum_ * pushed));
   }
-  /// sup x_k for starts of that level: a level between the smaller root and R that a window starts with is
-  /// kept.
+  /// sup x_k for starts of that level: a window that starts at a level between the smaller root and R keeps
+  /// that level.
   [[nodiscard]] Ball largest(const Ball& start) const {
     Ball most = ultimate();
     for (const Ball& level : levels(start, samples())) {
@@ -83,7 +83,7 @@ class ErrorSet {
     }
     return most;
   }
-  /// From that sample on |nu| <= frequency_error: so it is for a window, and the level is kept.
+  /// From that sample on |nu| <= frequency_error: this is true for a window, and the level is kept.
   [[nodiscard]] bool settled(const Ball& start, const Ball& frequency_error, std::size_t sample) const {
     const Ball target = frequency_error / sqrt(window_.frequency_variance);
     const std::vector<Ball> x = levels(start, sample + samples() - 1);

@@ -12,7 +12,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// The set of this name, verified; none when the evidence has none, or not all that it says is proved.
+/// The verified set of this name; empty when the evidence has none, or some statement in it is not proved.
 std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& name,
                                      const SingleChannelDesign& design, std::int64_t& cells,
                                      Objections& objections,
@@ -63,14 +63,14 @@ bool tolerates(const ErrorSet& set, const SingleChannelDesign& design) {
 }
 
 /// The assumed starts are in the set: their errors, and their covariances, which are below those of a tracker
-/// that has followed the tone without errors, and stay below. Of the predicted ones no more is known at first
-/// than that they are above Q.
+/// that has followed the tone without errors, and stay below. At first the only known bound on the predicted
+/// ones is that they are above Q.
 bool holds_starts(const ErrorSet& set, const SingleChannelDesign& design, const DiagonalStart& start) {
   return set.window().has_starts && !design.has_given_covariance && set.keeps(level_of(start, design)) &&
          certainly_at_most(set.window().signal_uncertainty, design.q1);
 }
 
-/// How far the starts of the set reach, whatever phase and frequency, and what they never exceed.
+/// The reach of the starts of the set, whatever phase and frequency, and the bound that they never exceed.
 void add_size(const ErrorSet& set, Derivation& found) {
   const WindowStatement& window = set.window();
   const Ball signal = set.start() * sqrt(window.signal_variance);
@@ -93,7 +93,7 @@ struct ErrorSets {
   Ball start_level;  ///< of the assumed starts in `bound`
 };
 
-/// A set, and the level of the starts in it of which something is said.
+/// A set, and the level of the starts in it that statements are about.
 struct StartSet {
   const ErrorSet& set;
   Ball level;

@@ -9,8 +9,8 @@
 
 namespace veritrack::checker {
 
-/// Objects to what of the derivation "contraction" its evidence does not prove. Counts cells of phase and
-/// frequency.
+/// Objects to every statement of the derivation "contraction" that its evidence does not prove. Counts cells
+/// of phase and frequency.
 Promises check_phase_contraction(const Tree& derivation, const SingleChannelDesign& design,
                                  std::int64_t& cells, Objections& objections);
 

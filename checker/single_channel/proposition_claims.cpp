@@ -28,7 +28,7 @@ struct Point {
   }
   /// w^2 det(z I - R).
   [[nodiscard]] Ball rotation() const { return square(z * w - c) + square(s); }
-  // What is printed, times w.
+  // The printed expression, times w.
   [[nodiscard]] Ball printed_denominator() const {
     return square(z) * w - z * (k2 * s + two * c) + k1 * c - k1 * w + w;
   }
@@ -50,7 +50,7 @@ Verdict vanishes(const Difference& difference) {
     for (int j = 0; j <= kDegree; ++j) {
       for (int k = 0; k <= kDegree; ++k) {
         for (int l = 0; l <= kDegree; ++l) {
-          // cannot bind (zero): the identities are true, and nothing of a certificate is in them.
+          // cannot bind (zero): the identities are true, and do not depend on a certificate.
           if (!certainly_equal(difference(Point(Ball(i), Ball(j), Ball(k), Ball(l))), zero)) {
             return Verdict::undecided;
           }

@@ -12,7 +12,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// A number as the design file writes it, which is a formula, too.
+/// A number as the design file writes it; such a number is also a formula.
 std::string plain_number(const std::string& text, Objections& objections) {
   if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos) {
     objections.push_back("no number of a recursion: " + text.substr(0, 60));
@@ -60,8 +60,8 @@ VarianceTexts variance_texts(const Tree& chosen, Objections& objections) {
   return {process_noise.text() == "identity" ? q : "0", q, r};
 }
 
-/// What the recursion's design file has to say: a table "recursion". `asked`: its keys of [require];
-/// `has_jacobian`: that the derivative of the prediction is written out, which it may be.
+/// The content that the recursion's design file must have: a table "recursion". `asked`: its keys of
+/// [require]; `has_jacobian`: whether the derivative of the prediction is written out, which is optional.
 std::string recursion_of(const Tree& design, bool has_jacobian,
                          const std::map<std::string, std::string>& asked, Objections& objections) {
   const Tree& assume = design.at("assume");
@@ -177,7 +177,7 @@ Claim Recursion::check(const Tree& claim, const Guarantee& guarantee, Objections
     objections.emplace_back(kUnverified);
     return {};
   }
-  // What is required here names the lock by the number of this tracker.
+  // Requirements here name the lock by the number of this tracker.
   const auto& inner = part_->at("claims").elements();
   const auto there = std::find_if(inner.begin(), inner.end(),
                                   [&](const Tree& each) { return each.at("id").is(known->second); });

@@ -13,10 +13,10 @@ namespace veritrack::checker {
 
 class Recursion {
  public:
-  /// Verifies the part "recursion" of the certificate, if there is one, and adds what it consists of to the
-  /// parts of `result`. Its design has to be that of the same filter, word by word: the equations of the
-  /// tracker with the certificate's own q1, q2, r, epsilon, amplitude and noise, at a constant frequency of
-  /// the band or of a part of it, started anywhere; and it may require what the certificate's design does.
+  /// Verifies the part "recursion" of the certificate, if there is one, and adds its parts to those of
+  /// `result`. Its design has to be that of the same filter, word by word: the equations of the tracker with
+  /// the certificate's own q1, q2, r, epsilon, amplitude and noise, at a constant frequency of the band or of
+  /// a part of it, started anywhere; and it may require what the certificate's design does.
   Recursion(const Tree& certificate, const SingleChannelDesign& design, bool all_boxes, Verification& result);
 
   /// Whether a claim is one that only a recursion makes.

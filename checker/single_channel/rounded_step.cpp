@@ -7,11 +7,11 @@ namespace veritrack::checker {
 
 namespace {
 
-/// The largest share of P for which anything is said.
+/// The largest share of P for which a bound is given.
 constexpr double kMostShare = 0x1p-8;
 
-/// What the program computes of a covariance: the entries of M on and beside the diagonal, a component of u,
-/// d. The largest eigenvalue of M and |u| are known, too.
+/// The program's values for a covariance: the entries of M on and beside the diagonal, a component of u, d.
+/// The largest eigenvalue of M and |u| are also known.
 struct RoundedFactors {
   RoundedValue diagonal, beside, u, d;
   Ball most_m, most_u;
@@ -54,7 +54,7 @@ PredictedTone predict(const SingleChannelDesign& f, const HeldTone& before) {
   return result;
 }
 
-/// The errors after measurement_update; of the two components the larger one.
+/// The errors after measurement_update; the larger one of the two components.
 ToneRounding update(const SingleChannelDesign& f, const HeldTone& held_before, const PredictedTone& before) {
   const RoundedFactors& p = before.p;
   const RoundedValue r = held(f.r);
@@ -121,7 +121,7 @@ StepRounding step_rounding(const SingleChannelDesign& design, const WindowStatem
                            const Ball& noise, const std::optional<DiagonalStart>& start) {
   const Ball& a = window.frequency_variance;
   const Ball& b = window.signal_variance;
-  // What a measurement leaves of Q, which every prediction exceeds: diag(floor, floor, q2).
+  // The remainder of Q after a measurement: diag(floor, floor, q2). Every prediction exceeds Q.
   const Ball floor = (design.q1 * design.r / (design.q1 + design.r)).lower();
   const Ball kept = one - Ball(kMostShare);
   HeldTone states;

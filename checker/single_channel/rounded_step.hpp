@@ -1,7 +1,7 @@
-// How far a step of the single-channel tracker in double precision can be from the exact step: the checker's
-// own transcription of the operations of trackers/single_channel/single_channel_ekf.hpp, a time update and a
-// measurement update, with what is known of the size of each result (docs/rounding.md, "The single-channel
-// tracker").
+// Bounds on the distance of a step of the single-channel tracker in double precision from the exact step: the
+// checker's own transcription of the operations of trackers/single_channel/single_channel_ekf.hpp, a time
+// update and a measurement update, with a bound on the size of each result (docs/rounding.md, "The
+// single-channel tracker").
 //
 // Assumed of the program: checker/numbers/rounded_value.hpp, and sine and cosine within one unit in the last
 // place. Lengths are relative to the true amplitude, which must be between 2^-60 and 2^60.
@@ -14,7 +14,7 @@
 
 namespace veritrack::checker {
 
-/// Bounds on what the program holds before the step, in any orientation of the plane: P = [[M + d u u', d u],
+/// Bounds on the program's values before the step, in any orientation of the plane: P = [[M + d u u', d u],
 /// [d u', d]].
 struct HeldTone {
   Ball z;                ///< |z|
@@ -25,7 +25,7 @@ struct HeldTone {
   Ball least_d, most_d;  ///< d; least_d > 0
 };
 
-/// Bounds on |program's step - exact step|: of z the length, of P the norms of its blocks. Balls of
+/// Bounds on |program's step - exact step|: the length for z, the norms of the blocks for P. Balls of
 /// everything when there is no bound.
 struct ToneRounding {
   Ball z, frequency, p_zz, p_z3, p_33;
@@ -33,8 +33,8 @@ struct ToneRounding {
 ToneRounding rounded_step(const SingleChannelDesign& design, const HeldTone& held);
 
 /// The program's step is the exact step, followed by a change of e by at most `error` in the metric of the
-/// program's P^-1, and one of P by at most `covariance` times what the exact step ends with, up or down in
-/// the Loewner order. Balls of everything when there is no bound, or the share of P exceeds 2^-8.
+/// program's P^-1, and a change of P by at most `covariance` times the result of the exact step, up or down
+/// in the Loewner order. Balls of everything when there is no bound, or the share of P exceeds 2^-8.
 struct StepRounding {
   Ball error, covariance;
   [[nodiscard]] bool finite() const { return error.finite() && covariance.finite(); }

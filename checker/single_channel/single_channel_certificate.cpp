@@ -20,7 +20,7 @@ void verify(const Tree& certificate, bool all_boxes, Verification& result) {
   const Guarantee guarantee(certificate.at("design"), {true, false, kDoublePrecision}, objections);
   result.parts.push_back({"design", objections});
   if (!objections.empty()) {
-    return;  // nothing is said of what is no design
+    return;  // no statement is made about an invalid design
   }
   Promises promises;
   std::vector<SteadyStateBias> biases;

@@ -15,7 +15,7 @@ struct SingleChannelDesign {
   [[nodiscard]] bool without_leak() const { return certainly_equal(epsilon, zero); }
 };
 
-/// Objects to numbers that [lo, hi] does not contain, and to what no design can be.
+/// Objects to numbers that [lo, hi] does not contain, and to values that no design can have.
 SingleChannelDesign read_single_channel_design(const Tree& design, Objections& objections);
 
 }  // namespace veritrack::checker

@@ -1,4 +1,4 @@
-// Conditions that several of the published results have.
+// Conditions that several of the published results share.
 #pragma once
 
 #include <string>
@@ -22,7 +22,8 @@ inline Condition at_most(const std::string& id, const std::string& statement, co
 inline Ball leaked(const Design& d) {
   return d.epsilon * d.largest_frequency;
 }
-/// The largest |w| + |v| that is assumed: |w| may be anything from what leaks to that and the slew.
+/// The largest |w| + |v| that is assumed: |w| may be anything from the leak's part to that part plus the
+/// slew.
 inline Condition noise_free(const std::string& statement, const Design& d) {
   const Ball least = leaked(d) + d.noise;
   const Ball most = least + d.slew;

@@ -32,7 +32,7 @@ std::array<std::array<std::string, 3>, 3> texts_of(const Tree& rows) {
   return texts;
 }
 
-/// From one end to the other, two matrices or two numbers. Objects to a range that may contain nothing.
+/// From one end to the other, two matrices or two numbers. Objects to a range that may be empty.
 void read_covariance_range(const Tree& range, Design& design, Objections& objections) {
   const Tree& from = range.at("from");
   const Tree& to = range.at("to");
@@ -87,7 +87,7 @@ Design read_design(const Tree& tree, Objections& objections) {
   design.lowest_frequency = band.lowest;
   design.highest_frequency = band.highest;
   design.largest_frequency = band.highest;
-  // Gaussian noise has no bound: nothing that needs one is true of it.
+  // Gaussian noise has no bound: no statement that needs one is true for it.
   design.noise = assume.at("noise").find("text") == nullptr ? Ball::everything()
                                                             : not_negative(assume, "noise") / amplitude;
   design.slew = read_slew(assume.at("slew"), assume, objections);

@@ -31,7 +31,7 @@ struct Design {
 /// `assume.noise` is an object, so that the noise is Gaussian.
 bool is_gaussian(const Tree& assume);
 
-/// Objects to numbers that [lo, hi] does not contain, and to what no design can be.
+/// Objects to numbers that [lo, hi] does not contain, and to values that no design can have.
 Design read_design(const Tree& design, Objections& objections);
 
 }  // namespace veritrack::checker

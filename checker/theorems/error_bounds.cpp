@@ -45,7 +45,7 @@ class ErrorBoundsCheck {
 
  private:
   static constexpr int kDepth = 16;
-  /// Of F(rho) U(turn), for all of a box.
+  /// F(rho) U(turn), for all of a box.
   using Predicate = std::function<bool(const Matrix3& step)>;
 
   [[nodiscard]] Matrix3 step(const Ball& rho, const Ball& turn) const {
@@ -59,7 +59,7 @@ class ErrorBoundsCheck {
     const Ball turn = two * arcsine(tube_.plane) + tube_.frequency;
     const double half_turn = turn.upper_double();
     const double width = tube_.plane.upper_double();
-    // cannot bind (turn): larger turns are looked at, too, and those that are not finite prove nothing.
+    // cannot bind (turn): larger turns are also examined, and those that are not finite prove nothing.
     return certainly_less(turn, one) && is_true_over(predicate, -width, width, -half_turn, half_turn, kDepth);
   }
 
@@ -212,8 +212,8 @@ std::optional<ErrorBounds> verified_error_bounds(const Tree& derivation, const s
                          static_cast<int>(std::clamp(window, 0.0, 20.0))};
   // cannot bind (tube.plane, tube.one_minus_alpha, design.q1, design.epsilon): at amplitude zero the
   // frequency is not seen, so that no bound on it is kept, and beyond 1 the arcsine is a ball of everything;
-  // without alpha and q1, mu Q is not above what is carried; designs with another epsilon are refused as they
-  // are read.
+  // without alpha and q1, mu Q is not above the propagated covariance; designs with another epsilon are
+  // refused as they are read.
   const bool sensible = certainly_equal(number("window"), Ball(tube.window)) &&
                         certainly_positive(tube.plane) && certainly_less(tube.plane, one) &&
                         certainly_positive(tube.frequency) && certainly_positive(tube.one_minus_alpha) &&

@@ -15,7 +15,7 @@ struct ErrorBounds {
   Ball plane, frequency;  ///< |z(k|k) - z(k)| and |x3(k|k) - x3(k)| at most
   Ball one_minus_alpha, curvature, process_gain, measurement_gain, s, radius;
   Matrix3 upper, information;  ///< P(k|k) <= upper, P(k|k)^-1 <= information
-  int window = 0;  ///< they are true after so many steps whatever P(0|0) was; 0: the filter keeps them
+  int window = 0;              ///< true after this many steps whatever P(0|0) was; 0: the filter keeps them
   [[nodiscard]] Ball plane_gain() const {
     return sqrt(larger_eigenvalue(upper[0][0], upper[1][0], upper[1][1]));
   }
@@ -35,7 +35,7 @@ struct ErrorBounds {
   [[nodiscard]] Ball tolerated() const { return one_minus_alpha * radius - curvature * square(radius); }
 };
 
-/// The bounds of this name, verified; none when the evidence has none, or not all that it says is proved.
+/// The verified bounds of this name; empty when the evidence has none, or some statement in it is not proved.
 std::optional<ErrorBounds> verified_error_bounds(const Tree& derivation, const std::string& name,
                                                  const Design& design, Objections& objections);
 

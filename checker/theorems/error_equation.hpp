@@ -19,7 +19,8 @@ struct ErrorEquation {
 
 ErrorEquation error_equation(const Design& design, const Ball& radius);
 
-/// The radius that the certificate chose, as the quantity of this name; about nothing unless in (0, 1/2].
+/// The radius that the certificate chose, as the quantity of this name; a ball of everything unless in (0,
+/// 1/2].
 Ball claimed_radius(const Tree& derivation, const std::string& name);
 
 /// The statements about the equation in every derivation that uses it.

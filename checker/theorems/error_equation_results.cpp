@@ -9,7 +9,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// sup of |g(k)| for the noise that is assumed: |w| from what leaks to that and the slew.
+/// sup of |g(k)| for the assumed noise: |w| from the leak's part to that part plus the slew.
 Range perturbation(const ErrorEquation& e, const Design& d) {
   const Ball least = e.correction * leaked(d) + e.gain * d.noise;
   return {least, least + e.correction * d.slew};

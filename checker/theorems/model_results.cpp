@@ -185,7 +185,7 @@ Derivation theorem_3_1_to_the_letter(const Design& /*d*/, const Tree& /*claimed*
   return {"Further statements of section 3.2.1 of the thesis, taken literally",
           {},
           {less("rank-everywhere", R"(0 < \det J'J \text{ for every } x)", zero, zero),
-           // The scan shows no parentheses, and not whether it has lost them: nothing may be said of it.
+           // The scan shows no parentheses, nor whether it has lost them: no statement may be made about it.
            {"gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2 \text{, as the scan reads})",
             Verdict::undecided},
            less("definition-3.1", R"(h(f^k(x)) \ne h(f^k(\bar x)) \text{ for every } k = 0, \ldots, n-1)",

@@ -11,7 +11,7 @@ namespace veritrack::checker {
 /// Is there a check for this derivation?
 bool is_published_result(const std::string& id);
 
-/// Objects to what of the derivation could not be re-established.
+/// Objects to every statement of the derivation that could not be re-established.
 std::string check_published_result(const std::string& id, const Tree& derivation, const Design& design,
                                    Objections& objections);
 

@@ -7,7 +7,7 @@
 
 namespace veritrack::checker {
 
-/// Objects to what of the derivation "theorem-2.9/repaired" its evidence does not prove.
+/// Objects to every statement of the derivation "theorem-2.9/repaired" that its evidence does not prove.
 std::string check_repaired_theorem(const Tree& derivation, const Design& design, Objections& objections);
 
 }  // namespace veritrack::checker

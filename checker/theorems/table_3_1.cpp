@@ -6,7 +6,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// p = q2 + r B1, q = 1/q1 + B2/r, s = q + rho^2/q1: what the table varies q1, q2 and r in.
+/// p = q2 + r B1, q = 1/q1 + B2/r, s = q + rho^2/q1: the expressions in which the table varies q1, q2 and r.
 struct Table {
   Ball b1, b2, rho2;
   [[nodiscard]] Ball p(const Ball& q2, const Ball& r) const { return q2 + r * b1; }
@@ -94,7 +94,7 @@ Slopes slopes_of(const Table& t, const Design& d) {
           {t.q(high1, high_r), t.q(low1, low_r)}};
 }
 
-/// Where alpha and beta are stationary in r, and what the formulas of the table give for it.
+/// The r at which alpha and beta are stationary, and the values that the table's formulas give for it.
 struct StationaryR {
   Ball alpha, beta, alpha_formula, beta_formula;
 };

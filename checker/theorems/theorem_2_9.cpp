@@ -93,7 +93,7 @@ std::vector<Condition> conditions_of(const Tree& claimed, const Constants29& c, 
   const Ball initial_error = largest_initial_error(d);
   const Part q1_positive = strict(zero, d.q1);
   const Part no_more_than_q2{d.q1, d.q2, d.q1_equals_q2 ? Verdict::proved : decide_at_most(d.q1, d.q2)};
-  // The largest |w| is anything from what leaks at constant frequency to that and the slew.
+  // The largest |w| is anything from the leak's part at constant frequency to that part plus the slew.
   const Verdict process = certainly_at_most(leaked + d.slew, c.process_noise) ? Verdict::proved
                           : certainly_less(c.process_noise, leaked)           ? Verdict::refuted
                                                                               : Verdict::undecided;

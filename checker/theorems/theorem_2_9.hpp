@@ -23,7 +23,7 @@ Ball smallest_admitted_estimate(const Design& design);
 /// sup |e(0)| over the assumed starts.
 Ball largest_initial_error(const Design& design);
 
-/// Objects to what of the derivation, feasibility included, could not be re-established.
+/// Objects to every statement of the derivation, feasibility included, that could not be re-established.
 std::string check_theorem_2_9(const Tree& derivation, const Design& design, Reading reading,
                               Objections& objections);
 

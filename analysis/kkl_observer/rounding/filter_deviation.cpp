@@ -14,8 +14,8 @@ namespace {
 using rigor::Interval;
 using rigor::Rounded;
 
-/// What the rounding of all steps adds to each filter, for samples of at most 1 before they are rounded. The
-/// steps contract; the states that the bound on one step is about are twice as large as the exact ones get.
+/// The contribution of the rounding of all steps to each filter, for samples of at most 1 before they are
+/// rounded. The steps contract; the bound on one step is for states twice as large as the exact ones get.
 template <int M>
 KklFilters<M> rounding_of_steps(const rigor::IntervalVector<M>& lambda, const Interval& interval) {
   Eigen::Matrix<Rounded, M, 1> rates;

@@ -1,4 +1,4 @@
-// How far the filters of the program may be from those of the differential equations: docs/rounding.md,
+// Bounds on the distance of the program's filters from those of the differential equations: docs/rounding.md,
 // The KKL observer.
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace veritrack::kkl_observer {
 
-/// A certificate that names no sampling interval allows filters that are off by this times the signal's
-/// amplitude over their rates; its sentence says 1e-9.
+/// A certificate without a sampling interval allows filters to deviate by this times the signal's amplitude
+/// over their rates; its sentence says 1e-9.
 inline constexpr double kAllowedDeviation = 0x1p-29;
 
 /// With this share of it, a number that is proved for a neighbourhood of all filter states excludes xi = 0:

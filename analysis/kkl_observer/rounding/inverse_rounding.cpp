@@ -19,7 +19,7 @@ using trackers::KklResult;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGrowth = 1.25;  ///< of the pieces into which a range is cut
 
-/// Exact values as real arithmetic knows them.
+/// Exact values, in real arithmetic.
 class Known {
  public:
   Known() { ranges_.fill(Interval::entire()); }
@@ -52,8 +52,7 @@ Interval largest_square(const FilterStatesOf<M>& states) {
   return largest;
 }
 
-/// What is known whatever the angle between xi and span(lambda, 1); sets `gram` = |lambda|^2 |1|^2 -
-/// (lambda'1)^2.
+/// The bounds for every angle between xi and span(lambda, 1); sets `gram` = |lambda|^2 |1|^2 - (lambda'1)^2.
 template <int M>
 Known known_of(const FilterStatesOf<M>& states, Interval& gram) {
   const auto& lambda = states.lambda;
@@ -87,7 +86,7 @@ Known known_of(const FilterStatesOf<M>& states, Interval& gram) {
   known.set(KklResult::right_1, linear<M>(cubed));
   known.set(KklResult::right_2, linear<M>(squared));
   known.set(KklResult::right_3, rigor::symmetric(largest_square(states).upper()));
-  // -xi times what lambda leaves of 1, whose square is gram / |lambda|^2.
+  // -xi times the part of 1 orthogonal to lambda, whose square is gram / |lambda|^2.
   known.set(KklResult::reduced_23, rigor::symmetric(sqrt(gram / squares).upper()));
   known.set(KklResult::reduced_2, linear<M>(reduced));
   known.set(KklResult::x3, states.squared_frequency);

@@ -65,7 +65,7 @@ Interval symmetric_norm(const rigor::LowerTriangle<kDimensions>& sizes) {
   return rigor::min(most, sqrt(squares));
 }
 
-/// An upper bound of what all but the constant part contributes to the largest eigenvalue.
+/// An upper bound of the contribution of all but the constant part to the largest eigenvalue.
 Interval varying_part(const GramMatrix& gram) {
   Interval sum(0.0);
   rigor::LowerTriangle<kDimensions> sizes;

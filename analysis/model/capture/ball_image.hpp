@@ -1,4 +1,4 @@
-// How far a ball of deviations, and noise, can reach after a linear step, over a cell of starts and phases.
+// The reach of a ball of deviations, and of noise, after a linear step, over a cell of starts and phases.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace veritrack::model {
 
-/// What a step does to small deviations, as a polynomial in the place in a cell of phases and starts.
+/// The effect of a step on small deviations, as a polynomial in the place in a cell of phases and starts.
 using SlopeModel = rigor::TaylorModel<3, 2>;
 
 /// A matrix of at most four rows and columns; entries beyond them are 0.
@@ -21,7 +21,7 @@ struct SlopeMatrix {
   std::array<std::array<SlopeModel, kMost>, kMost> entries{};
 
   SlopeMatrix() = default;
-  /// Of zeros. Throws std::invalid_argument when it is not small.
+  /// A matrix of zeros. Throws std::invalid_argument when it is not small.
   SlopeMatrix(std::size_t row_count, std::size_t column_count);
 
   [[nodiscard]] SlopeModel& operator()(std::size_t i, std::size_t j) { return entries[i][j]; }

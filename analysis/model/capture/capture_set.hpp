@@ -24,10 +24,10 @@ struct FollowedSet {
   std::size_t sample = 0;
 };
 
-/// What a step came to. Nothing is known unless the radius is finite.
+/// The result of a step. Nothing is known unless the radius is finite.
 struct FollowedStep {
   FollowedSet set;
-  double added = 0.0;  ///< to the radius, by what the polynomials do not keep
+  double added = 0.0;  ///< to the radius, by the terms that the polynomials do not keep
 };
 
 /// Two deviations from the curve, each an interval; the other states are on the curve.
@@ -60,8 +60,8 @@ class Follower {
   template <int Directions>
   [[nodiscard]] Derivatives derivatives_at(const std::vector<SlopeModel>& place) const;
   [[nodiscard]] Derivatives derivatives(const std::vector<SlopeModel>& place) const;
-  /// The states and the samples after the set, each as a function of the place that may be off by all that
-  /// the ball and the noise allow.
+  /// The states and the samples after the set, each as a function of the place, with an error up to
+  /// everything that the ball and the noise allow.
   [[nodiscard]] std::vector<SlopeModel> widened_place(CaptureTrack& track, const FollowedSet& set) const;
 
   const CaptureProblem* problem_;
@@ -69,15 +69,16 @@ class Follower {
   std::vector<CaptureModel> registers_;
 };
 
-/// Deviations x and y that lie in another box, by those that the box was begun with: for `substituted`.
+/// Deviations x and y that lie in another box, in terms of those that the box started with: for
+/// `substituted`.
 struct SubBox {
   std::array<std::array<CaptureModel, kCaptureDegree + 1>, kCaptureDegree + 1> powers;  ///< x^a y^b
 };
 
-/// `inner` within `outer`; of the models that belong to `outer`.
+/// `inner` within `outer`, for the models that belong to `outer`.
 [[nodiscard]] SubBox sub_box(const StartBox& outer, const StartBox& inner);
 
-/// The same polynomial, in terms of the places in the inner box; with the remainder that rounding needs.
+/// The same polynomial in terms of the places in the inner box, with the remainder that rounding needs.
 [[nodiscard]] CaptureModel substituted(const CaptureModel& polynomial, const SubBox& box);
 
 /// The part of a set that belongs to the inner box. `target`: at the set's sample.
@@ -87,7 +88,7 @@ struct SubBox {
 /// known.
 [[nodiscard]] double level_bound(const rigor::Interval& squared_level, double radius);
 
-/// How much of a set comes from each variable, in the coordinates of the tube. Not evidence.
+/// The share of a set that comes from each variable, in the coordinates of the tube. Not evidence.
 [[nodiscard]] std::array<double, 3> spread_of(const FollowedSet& set, const CaptureTarget& target);
 
 }  // namespace veritrack::model

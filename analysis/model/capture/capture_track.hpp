@@ -1,5 +1,5 @@
-// What starts far from the curve of a tube meet on their way: the signal and the tube, sample by sample, at
-// one frequency and over a cell of phases.
+// The signal and the tube that starts far from its curve meet on their way, sample by sample, at one
+// frequency and over a cell of phases.
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@ enum CaptureVariable { of_phase, of_x, of_y };
 /// A polynomial in s alone.
 using OverPhase = rigor::TaylorModel<1, kCaptureDegree>;
 
-/// Into which tube starts are to be followed, and on which signal. At this frequency the tube of radius
-/// `level` is never left: that is the caller's to have proved, and that the recursion and the signal do not
-/// know whole turns (verify_level checks both).
+/// The tube into which starts are to be followed, and the signal. The caller must have proved that the tube
+/// of radius `level` is never left at this frequency, and that the recursion and the signal do not know whole
+/// turns (verify_level checks both).
 struct CaptureProblem {
   const TrackerModel* tracker = nullptr;  ///< of at most four states
   const Tube* tube = nullptr;
@@ -52,8 +52,8 @@ struct CaptureTarget {
   std::vector<double> row_length;        ///< of U, at most, anywhere in the cell
 };
 
-/// Everything at sample number k, where the phase is that of the start and k times the frequency, less whole
-/// turns. Computed when it is first asked for. Needs the upward rounding mode; for one thread.
+/// Everything at sample number k, where the phase is that of the start plus k times the frequency, minus
+/// whole turns. Computed when it is first requested. Needs the upward rounding mode; for one thread.
 class CaptureTrack {
  public:
   /// `problem` must outlive the track. Throws std::invalid_argument when sizes do not fit, or for more than
@@ -62,8 +62,8 @@ class CaptureTrack {
 
   /// Of the signal, without noise.
   [[nodiscard]] const std::vector<CaptureModel>& samples(std::size_t sample);
-  /// Errors of these samples, all channels together, are at most this: the noise, and what amplitudes that
-  /// vary do. Infinite when nothing is known.
+  /// Errors of these samples, all channels together, are at most this: the noise, and the effect of
+  /// amplitudes that vary. Infinite when nothing is known.
   [[nodiscard]] double sample_errors(std::size_t sample);
   [[nodiscard]] const CaptureTarget& target(std::size_t sample);
 

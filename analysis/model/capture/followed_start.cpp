@@ -90,7 +90,7 @@ class StartFollower {
     if (!include_error(result)) {
       is_error_known_ = false;
     }
-    constexpr double kMostRadii = 64.0;  // of the tube: what is wider does not come back
+    constexpr double kMostRadii = 64.0;  // of the tube: wider sets of states do not come back
     for (;;) {
       if (!(radius_ <= kMostRadii * target_->level)) {
         result.obstacle =
@@ -116,7 +116,7 @@ class StartFollower {
   }
 
  private:
-  /// phi + k omega, less whole turns. In the plane.
+  /// phi + k omega, minus whole turns. In the plane.
   [[nodiscard]] BallModel phase_at(std::size_t sample) const {
     return turned_back(first_phase_ + BallModel(static_cast<double>(sample)) * frequency_);
   }
@@ -187,7 +187,7 @@ class StartFollower {
   }
   [[nodiscard]] std::size_t middle_count() const { return question_->state.size(); }
 
-  /// NaN where nothing is known, with which no comparison is true.
+  /// NaN where nothing is known; no comparison with it is true.
   void set_radius(const std::vector<BallModel>& rest) {
     // A ball of some size, for the bounds of what is linear in it.
     constexpr double kLeast = 0x1p-40;

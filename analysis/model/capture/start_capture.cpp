@@ -48,7 +48,7 @@ StartCapture prove_start_captured(const TrackerModel& model, const std::vector<T
     }
     const auto ask = [&](const TubeCell& cell) -> CellAnswer {
       const FollowedStart followed = follow_start(model, target, cell, question);
-      const bool is_cell = cell.half_turn > 0.0;  // and no point, that only says whether to go on
+      const bool is_cell = cell.half_turn > 0.0;  // not a point, which only shows whether to go on
       if (followed.is_captured && is_cell) {
         std::size_t known = samples.load();
         while (followed.samples > known && !samples.compare_exchange_weak(known, followed.samples)) {

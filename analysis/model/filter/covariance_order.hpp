@@ -1,4 +1,4 @@
-// Are bounds of a filter's covariance bounds again at the next sample, whatever the error of the estimate?
+// Are bounds of a filter's covariance again bounds at the next sample, whatever the error of the estimate?
 #pragma once
 
 #include "analysis/model/filter/filter_models.hpp"
@@ -11,10 +11,11 @@ struct JacobianParts {
   BallMatrix constant;                          ///< F_0
   std::vector<std::vector<BallMatrix>> powers;  ///< of each degree a = 1, 2, 3: the coefficients of xi^alpha
   std::vector<std::vector<double>> weights;     ///< of each: alpha!/a!
-  double error = 0.0;                           ///< bounds the Frobenius norm of what is left; NaN: not known
+  double error = 0.0;                           ///< bounds the Frobenius norm of the remainder; NaN: unknown
 };
 
-/// Of a Jacobian over models in xi, s and z. Needs a scope without a ball, and the upward rounding mode.
+/// Takes apart a Jacobian over models in xi, s and z. Needs a scope without a ball, and the upward rounding
+/// mode.
 [[nodiscard]] JacobianParts parts_of_jacobian(const std::vector<rigor::BallModel>& jacobian,
                                               std::size_t states);
 

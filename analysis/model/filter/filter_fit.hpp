@@ -9,7 +9,7 @@
 
 namespace veritrack::model::detail {
 
-/// The lower triangle row by row, and the matrix of one: symmetric, or lower triangular.
+/// The lower triangle row by row, and the matrix from one: symmetric, or lower triangular.
 [[nodiscard]] VectorXd triangle_of(const MatrixXd& matrix);
 [[nodiscard]] MatrixXd matrix_of_triangle(const VectorXd& entries, Index n, bool is_symmetric);
 

@@ -24,8 +24,7 @@ SmallMatrix gram_of(const SmallMatrix& a) {
   return product_with_transpose(a, a);
 }
 
-/// Something in units of the shape after the step, and how far it takes the innovation within the range of
-/// gains.
+/// A vector in units of the shape after the step, and its effect on the innovation within the range of gains.
 struct InUnits {
   SmallMatrix error, reach;
   /// Both with the multiplier mu: R^-1 error above sqrt(mu) reach.
@@ -75,7 +74,7 @@ std::optional<StepInUnits> in_units(const FilterStepOnOrbit& step, const FilterN
   return parts;
 }
 
-/// The square of a bound of what is quadratic.
+/// The square of a bound of the quadratic part.
 double squares_of(const StepInUnits& step, const SmallMatrix& root, double mu) {
   const Index rows = step.x.error.rows() + step.x.reach.rows();
   SmallMatrix gram = SmallMatrix::Zero(rows, rows);
@@ -85,7 +84,7 @@ double squares_of(const StepInUnits& step, const SmallMatrix& root, double mu) {
   return rigor::largest_eigenvalue(gram);
 }
 
-/// N N' of what disturbs: noise and the move of the curve; of both, each gets a half.
+/// N N' of the disturbances: noise and the move of the curve; with both, each gets a half.
 SmallMatrix disturbances_of(const StepInUnits& step, const SmallMatrix& root, double mu, bool has_noise) {
   const Index rows = step.x.error.rows() + step.x.reach.rows();
   const double half = has_noise && step.w ? 2.0 : 1.0;
@@ -99,8 +98,9 @@ SmallMatrix disturbances_of(const StepInUnits& step, const SmallMatrix& root, do
   return other;
 }
 
-/// The root of the largest (log E W+ - log(1 + c0 exp(-L l^2)))/(L l^2), about, over the levels l, where the
-/// step is N xi + B v and what is quadratic: from N N', B deviation, and the square of a bound of the latter.
+/// Approximately the root of the largest (log E W+ - log(1 + c0 exp(-L l^2)))/(L l^2) over the levels l,
+/// where the step is N xi + B v and a quadratic part: from N N', B deviation, and the square of a bound of
+/// that part.
 double gaussian_growth(const SmallMatrix& gram, const SmallMatrix& of_noise, double squared,
                        double exponent) {
   const SmallMatrix noise = gram_of(of_noise);
@@ -143,7 +143,7 @@ FilterGrowth FilterGrowthBound::of(const FilterStepOnOrbit& step, const FilterNu
   const bool has_noise = parameters.noise > 0.0;
   constexpr std::array<double, 7> kShares{1.08, 1.2, 1.4, 1.8, 3.0, 8.0, 40.0};
   for (std::size_t tried = 0; tried < kShares.size(); ++tried) {
-    // What was good at the last sample first.
+    // The multipliers that were good at the last sample first.
     const std::size_t number = (tried + good_share_) % kShares.size();
     const double most = enough > 0.0 ? enough : worst.whole;
     const double mu = kShares.at(number) * top + 1e-300;

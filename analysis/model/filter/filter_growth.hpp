@@ -1,4 +1,4 @@
-// How much a step of a filter enlarges its tube, for proposals.
+// The growth of a filter's tube in a step, for proposals.
 #pragma once
 
 #include <cstddef>
@@ -31,14 +31,14 @@ struct FilterStepOnOrbit {
   SmallMatrix contraction;           ///< I - K H
   SmallMatrix slope;                 ///< the derivative of f
   std::vector<SmallMatrix> changes;  ///< of it, along the columns of L
-  SmallVector offset;      ///< on the curve: what K makes of the innovation there, less its correction
-  SmallVector innovation;  ///< on the curve
-  SmallVector move;        ///< of the curve with the frequency; empty when that stands still
+  SmallVector offset;                ///< on the curve: K times the innovation there, minus its correction
+  SmallVector innovation;            ///< on the curve
+  SmallVector move;  ///< of the curve with the frequency; empty when the frequency is constant
 };
 
-/// What a step is worth.
+/// The worth of a step.
 struct FilterGrowth {
-  double whole = 0.0;   ///< |F|, about, for |xi| <= 1
+  double whole = 0.0;   ///< approximately |F| for |xi| <= 1
   double linear = 0.0;  ///< of it, without noise
 };
 
@@ -48,8 +48,8 @@ inline constexpr double kProposedConstant = 5.0;
 /// Bounds of the growth, by multipliers for the range of gains. Keeps those that were good at the last step.
 class FilterGrowthBound {
  public:
-  /// The least bound over the multipliers that are tried. With `enough`, the first one that is at most so
-  /// much, and infinity when there is none.
+  /// The least bound over the multipliers that are tried. With `enough`, the first one that is at most that,
+  /// and infinity when there is none.
   [[nodiscard]] FilterGrowth of(const FilterStepOnOrbit& step, const FilterNumbers& numbers,
                                 const FilterParameters& parameters, double enough);
 

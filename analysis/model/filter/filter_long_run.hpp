@@ -19,8 +19,8 @@ class LongRunSearch {
 
   [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples,
                                      double enough = 0.0) const;
-  /// From parameters of the other tube, and those that were found at neighbouring frequencies, if any;
-  /// nothing when there is no tube.
+  /// Starts from parameters of the other tube, and those that were found at neighbouring frequencies, if any;
+  /// empty when there is no tube.
   [[nodiscard]] std::optional<VectorXd> run(const VectorXd& of_around, const VectorXd& nearby) const;
 
  private:
@@ -32,7 +32,7 @@ class LongRunSearch {
   [[nodiscard]] Surroundings surroundings(std::size_t place) const {
     return {around_, radius_, kPlaces.at(place)};
   }
-  /// The smallest scale at which the growth is what it may be; infinity when there is none nearby.
+  /// The smallest scale at which the growth is admissible; infinity when there is none nearby.
   [[nodiscard]] double least_scale(const VectorXd& x, const WorthOf& worth_of) const;
   [[nodiscard]] ScoredPoint score(const VectorXd& x) const;
   void improve(ScoredPoint& best, double step) const;

@@ -155,7 +155,7 @@ bool is_positive_definite(const BallMatrix& a) {
   }
   const Eigen::MatrixXd x = factor.matrixL().solve(Eigen::MatrixXd::Identity(n, n));
   const Eigen::MatrixXd sizes = x.cwiseAbs();
-  // What varies with the place, and what is not known, is at most so large as a matrix; upward rounding.
+  // A bound on the matrix of the terms that vary with the place, and of the errors; upward rounding.
   double around = frobenius(Eigen::MatrixXd(sizes * errors * sizes.transpose())) * (1.0 + 0x1p-40);
   const auto& classes = a(0, 0).monomials().classes();
   for (std::size_t number = 1; number < classes.size(); ++number) {

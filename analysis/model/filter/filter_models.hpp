@@ -51,7 +51,7 @@ class BallMatrix {
 /// triangle is read.
 [[nodiscard]] bool is_positive_definite(const BallMatrix& a);
 
-/// Of a filter at a place: numbers that depend on the constants of the design only.
+/// Quantities of a filter at a place that depend on the constants of the design only.
 struct FilterNoise {
   BallMatrix measured;  ///< H
   BallMatrix process;   ///< Q

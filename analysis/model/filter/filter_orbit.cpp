@@ -51,7 +51,7 @@ bool FilterOrbit::step() {
   return true;
 }
 
-/// The bounds that are predicted, for estimates in `wide` L'; false where they are none.
+/// The predicted bounds, for estimates in `wide` L'; false where they are invalid.
 bool FilterOrbit::step_bounds(const SmallMatrix& wide, FilterOnOrbit& next) {
   const OrbitPoint& now = *point_;
   const Index n = walk_.numbers().states();
@@ -83,7 +83,7 @@ bool FilterOrbit::step_bounds(const SmallMatrix& wide, FilterOnOrbit& next) {
   return next.low.allFinite();
 }
 
-/// From the bounds that are updated.
+/// From the updated bounds.
 void FilterOrbit::step_gain() {
   const FilterNumbers& numbers = walk_.numbers();
   const SmallMatrix middle = combination(0.5, updated_high_, 0.5, updated_low_);

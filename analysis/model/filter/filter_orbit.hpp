@@ -8,13 +8,13 @@
 
 namespace veritrack::model::detail {
 
-/// Of the bounds, in units of themselves: what they have to spare.
+/// The slack of the bounds, in units of themselves.
 inline constexpr double kSlack = 0.006;
-/// Of those in the long run, where it is also how fast the covariance comes between them, and of those of a
-/// frequency that moves, which have to fit together at borders of cells.
+/// The slack of bounds in the long run, where it is also the rate at which the covariance comes between them,
+/// and of bounds for a frequency that moves, which have to fit together at borders of cells.
 inline constexpr double kWideSlack = 0.012;
 
-/// What is carried along.
+/// The quantities that are carried along.
 struct FilterOnOrbit {
   SmallMatrix low, high;  ///< predicted for this sample
   SmallMatrix shape;      ///< Pi after it
@@ -34,14 +34,14 @@ class FilterOrbit {
         moves_(parameters.slew > 0.0 && slope != nullptr),
         points_(points) {}
 
-  /// At this phase, from the steady state of the filter.
+  /// Starts at this phase, from the steady state of the filter.
   void begin(double phase);
-  /// To the next sample; false where bounds or shape are none.
+  /// Advances to the next sample; false where bounds or shape are invalid.
   [[nodiscard]] bool step();
   [[nodiscard]] const FilterOnOrbit& here() const { return here_; }
-  /// How far frequency errors reach in the shape.
+  /// The largest frequency errors in the shape.
   [[nodiscard]] double reach() const;
-  /// Of the step that was the last one: see FilterGrowthBound.
+  /// The growth of the last step: see FilterGrowthBound.
   [[nodiscard]] FilterGrowth growth(double enough = 0.0) {
     return bound_.of(last_, walk_.numbers(), parameters_, enough);
   }

@@ -71,7 +71,7 @@ std::optional<FilterOnGrid> on_grid(const TrackedTone& tone, const NodeCurve& cu
                                                                                         : std::nullopt;
 }
 
-/// |L^-1 (a - b) L^-T| for L L' = b: how far a is from b in units of b.
+/// |L^-1 (a - b) L^-T| for L L' = b: the distance of a from b in units of b.
 double mismatch(const MatrixXd& a, const MatrixXd& b) {
   const auto root = rigor::cholesky(b);
   if (!root) {
@@ -115,7 +115,7 @@ class FilterGrids {
     return {detail::fit_of(low_, harmonics, 1.0), detail::fit_of(high_, harmonics, 1.0),
             detail::fit_of(shape_, harmonics, scale)};
   }
-  /// How much they lose between the nodes, in units of what they may lose.
+  /// Their loss between the nodes, in units of the admissible loss.
   [[nodiscard]] double loss_of(const FilterFits& fits, double scale) const {
     double worst = 0.0;
     for (const auto& [z, exact] : judges_) {
@@ -191,7 +191,7 @@ void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParame
     return;
   }
   proposal.outcome = TubeOutcome::cell_too_wide;
-  // As few harmonics as lose hardly anything.
+  // The fewest harmonics that lose hardly anything.
   std::optional<FilterFits> found;
   for (int harmonics = 2; harmonics <= most_harmonics && !found; harmonics += 2) {
     FilterFits fits = grids.fits(harmonics, 1.0 / unit);

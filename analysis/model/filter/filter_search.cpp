@@ -31,7 +31,7 @@ FilterSearch::FilterSearch(const TrackedTone& tone, const CurveFit& curve, const
   const Index n = tone.filter->states;
   const VectorXd state = state_at(nodes_[1], kFirstPhase);
   VectorXd sizes(n);
-  // Of deviations: those that the filter itself expects.
+  // For deviations: those that the filter itself expects.
   Index place = n;
   for (Index i = 0; i < n; ++i) {
     sizes[i] = std::sqrt(std::max(1e-300, state[place]));
@@ -192,8 +192,7 @@ void FilterSearch::improve_further(ScoredPoint& best) {
   if (!coordinates_.finds()) {
     return;
   }
-  // A search that begins anew finds more. Its size is the value that is climbed, whose steps would hide what
-  // is gained.
+  // Restarts find more. The scale is the value that is climbed; its steps would hide the gain.
   constexpr int kFineHalvings = 10;
   halvings_ = kFineHalvings;
   const int most_rounds = coordinates_.exponent > 0.0 ? 0 : 4;

@@ -13,7 +13,7 @@
 
 namespace veritrack::model::detail {
 
-/// At the middle of the cell, and then scaled so that they do at its ends.
+/// Found at the middle of the cell, and then scaled so that they also work at its ends.
 class FilterSearch {
  public:
   FilterSearch(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings, double rate);
@@ -33,16 +33,16 @@ class FilterSearch {
   [[nodiscard]] VectorXd with_size(VectorXd x, double logarithm) const;
   /// The point with a larger or smaller scale: of the tube, or of the noise.
   [[nodiscard]] VectorXd scaled(VectorXd x, double logarithm) const;
-  /// The largest scale at which the growth is what it may be; -infinity when there is none nearby.
+  /// The largest scale at which the growth is admissible; -infinity when there is none nearby.
   [[nodiscard]] double largest_scale(const VectorXd& x, const WorthOf& worth_of) const;
   [[nodiscard]] ScoredPoint score(const VectorXd& x) const;
   [[nodiscard]] std::vector<ScoredPoint> scores_of(const std::vector<VectorXd>& points) const;
-  /// Of the reach.
+  /// Starts for the reach.
   [[nodiscard]] std::vector<ScoredPoint> first_starts() const;
-  /// Of a disturbance: from tubes without any, made smaller.
+  /// For a given disturbance: from tubes without any, made smaller.
   [[nodiscard]] std::vector<ScoredPoint> starts_without_disturbance() const;
   void improve(ScoredPoint& best, double step) const;
-  /// Of the largest disturbance, again and again.
+  /// Searches for the largest disturbance, repeatedly.
   void improve_further(ScoredPoint& best);
   /// At the ends of the cell a smaller tube may be needed, not only less noise.
   [[nodiscard]] ScoredPoint for_whole_cell(const VectorXd& point) const;

@@ -29,7 +29,7 @@ BallMatrix lifted(const BallMatrix& matrix) {
   return {std::move(entries), matrix.columns()};
 }
 
-/// What depends on the place in the cell only.
+/// The quantities that depend on the place in the cell only.
 struct FilterPlace {
   CellFrame frame;
   FilterNoise noise;
@@ -40,8 +40,8 @@ struct FilterPlace {
   BallMatrix factor;                 ///< L of R^-1 H Delta H' R^-1
 };
 
-/// Among models without a ball. With a slew, all that is at the next phase is that of every frequency it
-/// moves to.
+/// Among models without a ball. With a slew, everything at the next phase is for every frequency to which it
+/// moves.
 FilterPlace place_of_filter(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double slew) {
   CellFrame frame =
       frame_of(model, tube, cell, slew > 0.0 ? FrameParts::with_samples : FrameParts::with_next);
@@ -122,7 +122,8 @@ bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, const
       !stays_above(parts, place.low_here, place.noise.process, low)) {
     return false;
   }
-  // Of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. The ends decide.
+  // As functions of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. The ends
+  // decide.
   const Interval ratio(question.ratio);
   return question.ratio == 1.0 ||
          (stays_below(parts, place.high_here, scaled(place.noise.process, BallModel(Interval(1.0) / ratio)),
@@ -145,8 +146,8 @@ Eigen::MatrixXd linear_at_middle(const std::vector<BallModel>& vector, int ball,
   return matrix;
 }
 
-/// The mu for which the linear part is shortest, in floating point; 0 when there is none. `of_gaussian`: what
-/// the square of Gaussian noise is multiplied by; 0: the noise is bounded, or there is none.
+/// The mu for which the linear part is shortest, in floating point; 0 when there is none. `of_gaussian`: the
+/// factor of the square of Gaussian noise; 0: the noise is bounded, or there is none.
 double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& deviation,
                        const std::vector<BallModel>& reach, bool is_noisy, double of_gaussian) {
   const auto n = static_cast<Eigen::Index>(spread.rows());
@@ -230,7 +231,7 @@ TubeHere tube_after(const Tube& tube, const FilterPlace& place, double slew, dou
                      BallModel(slew * stretch / tube.half_width) * BallModel::disturbance(of_noise));
 }
 
-/// factor' innovation: how far the range of gains may take the estimate.
+/// factor' innovation: the displacement of the estimate by the range of gains.
 std::vector<BallModel> reach_of(const BallMatrix& factor, const std::vector<BallModel>& innovation) {
   std::vector<BallModel> reach;
   for (std::size_t d = 0; d < innovation.size(); ++d) {
@@ -311,7 +312,7 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
   }
   step.is_known = !question.with_covariance || [&] {
     const rigor::BallModelScope inner(0, 0);
-    // A little more, so that another program need not be as sharp.
+    // A little more, for a checker whose bounds are cruder.
     constexpr double kRoom = 1.01;
     return keeps_covariance(model, place, {kRoom * radius, question.margin, 1.0});
   }();
@@ -334,7 +335,7 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
     return bounds;
   }
   const WidthShares shares = width_shares(step.vector);
-  // What the bounds of the covariance lack is not in these.
+  // These do not include the shortfall of the covariance bounds.
   bounds.by_phase = step.is_known ? shares.by_phase : std::numeric_limits<double>::quiet_NaN();
   bounds.by_frequency = step.is_known ? shares.by_frequency : std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> lengths = length_bounds(step.vector, scales, is_noisy && is_moving);

@@ -4,8 +4,7 @@
 // With the updated covariance P+ the estimate is x+ = x^ + P+ H' R^-1 (y - H x^ - h_0): affine in P+. And P+
 // is monotone in P. So a tube has the estimate alone as its state, and bounds of the covariance beside it: if
 // the covariance predicted for this sample is between low(phi) and high(phi), the updated one is between low+
-// and high+, those of the bounds; all that is known of P+ is that it is one of these (docs/model-proof.md,
-// section 13).
+// and high+, those of the bounds; nothing else is known about P+ (docs/model-proof.md, section 13).
 #pragma once
 
 #include <vector>
@@ -14,13 +13,13 @@
 
 namespace veritrack::model {
 
-/// What is asked of a step.
+/// A question about a step.
 struct FilterStepQuestion {
   double radius = 0.0;
   double noise = 0.0;           ///< V, signal units
   double slew = 0.0;            ///< W, rad/sample per sample
-  bool with_covariance = true;  ///< that its bounds are kept, too
-  double margin = 0.0;          ///< that they then have to spare: see RangeQuestion
+  bool with_covariance = true;  ///< also show that its bounds are kept
+  double margin = 0.0;          ///< the slack that they must then leave: see RangeQuestion
 };
 
 /// A vector that is at least as long as F over a cell, for every covariance between the bounds of the tube,
@@ -48,11 +47,11 @@ struct FilterStepOver {
                                            const FilterStepQuestion& question,
                                            const std::vector<double>& scales, PlaceStore* store = nullptr);
 
-/// Of the bounds of a covariance, over a cell.
+/// A question about the bounds of a covariance, over a cell.
 struct RangeQuestion {
   double radius = 0.0;  ///< of the estimate in the tube
-  /// From one sample to the next they have this share of themselves to spare: F Phi(high) F' + Q < (1 -
-  /// margin) high+, F Phi(low) F' + Q > low+/(1 - margin).
+  /// From one sample to the next they leave this share of themselves: F Phi(high) F' + Q < (1 - margin)
+  /// high+, F Phi(low) F' + Q > low+/(1 - margin).
   double margin = 0.0;
   /// The same for c high and low/c in place of high and low, on both sides, for all c from 1 to this.
   double ratio = 1.0;

@@ -1,4 +1,4 @@
-// What the parameters of a filter's tube are worth, and their coordinates in a search.
+// The worth of the parameters of a filter's tube, and their coordinates in a search.
 #pragma once
 
 #include <functional>
@@ -27,8 +27,8 @@ struct FilterCoordinates {
   [[nodiscard]] FilterParameters at(const VectorXd& x) const;
 };
 
-/// What parameters are worth: the largest growth, that of its linear part without noise, and how far
-/// frequency errors reach, over the phase.
+/// The worth of parameters: the largest growth, that of its linear part without noise, and the largest
+/// frequency errors, over the phase.
 struct FilterWorth {
   double growth = std::numeric_limits<double>::infinity();
   double linear = 1.0;
@@ -39,17 +39,17 @@ struct FilterWorth {
 /// Where the orbits of the search begin, rad.
 inline constexpr double kFirstPhase = 0.3;
 
-/// Over so many samples of an orbit, after `before`. With `enough`, the growth is only compared with it: it
-/// is at most so much, or infinite.
+/// Over `samples` samples of an orbit, after `before`. With `enough`, the growth is only compared with it: it
+/// is at most that, or infinite.
 [[nodiscard]] FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve,
                                          const FilterParameters& parameters, int before, int samples,
                                          const Surroundings& around = {},
                                          const Eigen::MatrixXcd* slope = nullptr,
                                          const OrbitPoints* points = nullptr, double enough = 0.0);
-/// The worth that all of several have.
+/// The worst of several worths.
 [[nodiscard]] FilterWorth least_of(std::span<const FilterWorth> each);
 
-/// How many samples the shape remembers.
+/// The number of samples that the shape remembers.
 [[nodiscard]] int memory_of(double rate_squared, const FilterParameters& parameters, double share);
 
 /// The least logit of lambda that is searched: nearer to the square of the rate a shape is settled after
@@ -57,15 +57,15 @@ inline constexpr double kFirstPhase = 0.3;
 inline constexpr double kLeastLogit = -2.5;
 inline constexpr double kLargestGrowth = 0.985;
 
-/// A point of a search and what it is worth; minus infinity: nothing.
+/// A point of a search and its worth; minus infinity: no worth.
 struct ScoredPoint {
   double value = -std::numeric_limits<double>::infinity();
   VectorXd point;
 };
 [[nodiscard]] const ScoredPoint& best_of(std::span<const ScoredPoint> points);
 
-/// Climbs from `best`, with so many evaluations of `score`, which may return another point than it was asked
-/// for. Steps of the logarithms of parameters.
+/// Climbs from `best`, with `evaluations` evaluations of `score`, which may return another point than the
+/// requested one. Steps of the logarithms of parameters.
 void climb(ScoredPoint& best, double step, int evaluations,
            const std::function<ScoredPoint(const VectorXd&)>& score);
 

@@ -62,7 +62,7 @@ CoverResult verify_long_run_entry(const TrackerModel& model, const Tube& from, d
   if (!is_question) {
     return {};
   }
-  // The estimates of the one tube, with the bounds of the other.
+  // The estimates of one tube, with the bounds of the other.
   Tube mixed = from;
   mixed.covariance_low = into.covariance_low;
   mixed.covariance_high = into.covariance_high;
@@ -87,7 +87,7 @@ CoverResult verify_long_run_entry(const TrackerModel& model, const Tube& from, d
     answer.by_phase = shares.by_phase;
     answer.by_frequency = shares.by_frequency;
     const Interval length(length_bounds(deviation, {1.0}).front());
-    // A little more, so that another program need not be as sharp.
+    // A little more, for a checker whose bounds are cruder.
     constexpr double kRoom = 1.01;
     answer.is_proved = orders && is_shape(there) &&
                        rigor::certainly_less_equal(length, Interval(into_radius)) &&

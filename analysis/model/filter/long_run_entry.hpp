@@ -2,9 +2,9 @@
 //
 // Both are tubes of the same frequencies. Estimates stay at the lowest level of the first one, and the
 // covariance stays between its bounds low_0 and high_0, which are at most c times as wide: high_0 <= c
-// high_1, low_0 >= low_1/c. If high_1 and low_1 are kept with a margin for these estimates, and c high_1,
-// low_1/c are for every c > 1, then c becomes (1 - margin) c at every sample, and the covariance is between
-// low_1 and high_1 when c is 1 (docs/model-proof.md, section 13).
+// high_1, low_0 >= low_1/c. If high_1 and low_1 are kept with a margin for these estimates, and so are c
+// high_1 and low_1/c for every c > 1, then c becomes (1 - margin) c at every sample, and the covariance is
+// between low_1 and high_1 when c is 1 (docs/model-proof.md, section 13).
 #pragma once
 
 #include "analysis/model/step/cell_cover.hpp"
@@ -12,13 +12,13 @@
 
 namespace veritrack::model {
 
-/// How a tube in the long run is entered.
+/// The entry into a tube in the long run.
 struct LongRunEntry {
   double margin = 0.0;  ///< of its bounds of the covariance: see RangeQuestion
   double ratio = 1.0;   ///< c at the beginning
 
-  /// After how many samples the covariance is between the bounds: an upper bound. Needs the upward rounding
-  /// mode.
+  /// An upper bound on the number of samples after which the covariance is between the bounds. Needs the
+  /// upward rounding mode.
   [[nodiscard]] double samples() const;
 };
 
@@ -29,7 +29,7 @@ struct LongRunEntry {
                                                 const Tube& into, double into_radius,
                                                 const LongRunEntry& entry, const VerificationBudget& budget);
 
-/// The largest levels in `into`, and the ratio, at so many phases and three frequencies. Not evidence.
+/// The largest levels in `into`, and the ratio, at this many phases and three frequencies. Not evidence.
 struct SampledEntry {
   double level = 0.0;
   double ratio = 1.0;

@@ -1,5 +1,5 @@
-// The samples of an orbit of the tone: what of a filter depends on them only, not on the parameters of a
-// proposal.
+// The samples of an orbit of the tone: the quantities of a filter that depend on them only, not on the
+// parameters of a proposal.
 #pragma once
 
 #include <cstddef>
@@ -34,9 +34,8 @@ struct OrbitPoint {
   std::vector<MatrixXd> changes;           ///< of F along each state
   std::vector<MatrixXd> changes_of_slope;  ///< of the derivative of f; empty when they are the same
   MatrixXd wide;                           ///< the tube around, if any
-  VectorXd move;                           ///< how the curve moves with the frequency, if asked for
-  /// From the sample before: the correction, and the innovation that belongs to it. A leak makes them other
-  /// than 0 on the curve.
+  VectorXd move;                           ///< the derivative of the curve by the frequency, if requested
+  /// From the sample before: the correction and its innovation. With a leak they are not 0 on the curve.
   VectorXd correction, innovation;
 };
 

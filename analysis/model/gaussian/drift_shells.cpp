@@ -18,10 +18,10 @@ using rigor::Interval;
 /// The levels between which the inequality is verified, relative to R, from the rim to the curve.
 constexpr std::array<double, 10> kShells{1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.42, 0.34, 0.22, 0.0};
 
-/// What is split by Young's inequality, in floating point; any positive numbers are valid.
+/// The weights of Young's inequality, in floating point; any positive numbers are valid.
 struct DriftSplit {
   double linear = 0.1;  ///< (a + b)^2 <= (1 + linear) a^2 + (1 + 1/linear) b^2
-  double rest = 1.0;    ///< the same for the rest: what does not depend on the noise, and what does
+  double rest = 1.0;    ///< the same for the rest: the part without noise, and the part with it
 };
 
 /// A bound mu of the linear part, and the weight w of the noise's matrix: N N' + w mu B B' <= mu I has to be
@@ -84,7 +84,7 @@ class ShellCheck {
   }
 
  private:
-  /// A bound of what is not linear and does not depend on the noise, at a level: r(l).
+  /// A bound of the nonlinear part that does not depend on the noise, at a level: r(l).
   [[nodiscard]] Interval at_rest(double level) const {
     Interval sum = parts_->error;
     for (std::size_t degree = 0; degree < VectorParts::kDegrees; ++degree) {
@@ -92,7 +92,7 @@ class ShellCheck {
     }
     return sum * unit_;
   }
-  /// A bound of what is not linear and depends on the noise, over |u|, u = v/V, at levels up to this one.
+  /// A bound of the nonlinear part that depends on the noise, over |u|, u = v/V, at levels up to this one.
   [[nodiscard]] Interval with_noise(double level) const {
     Interval sum(0.0);
     for (std::size_t degree = 0; degree < VectorParts::kDegrees; ++degree) {
@@ -103,7 +103,7 @@ class ShellCheck {
     return sum * unit_;
   }
 
-  /// What the linear part has to meet; nothing when no linear part would do.
+  /// The demand on the linear part; empty when no linear part would meet it.
   [[nodiscard]] std::optional<LinearDemand> demand_for(const DriftSplit& split, double low, double high,
                                                        const Interval& rest, const Interval& by_noise) const {
     const Interval one(1.0);
@@ -136,7 +136,7 @@ class ShellCheck {
     return demand;
   }
 
-  /// By how much the demand is met at the middle of the cell, relative to it. Not evidence.
+  /// The margin by which the demand is met at the middle of the cell, relative to it. Not evidence.
   [[nodiscard]] double proposed_room(const LinearDemand& demand) const {
     Eigen::MatrixXd sum = of_x_;
     if (of_v_.size() > 0) {

@@ -15,17 +15,17 @@
 
 namespace veritrack::model {
 
-/// What is asked of a tube.
+/// A question about a tube.
 struct DriftQuestion {
   double radius = 0.0;      ///< R
   double deviation = 0.0;   ///< of the noise in each sample, at most, signal units
-  double most_noise = 0.0;  ///< V: errors of all samples together that are longer count as lost, signal units
+  double most_noise = 0.0;  ///< V: longer errors, all samples together, count as a loss of lock; signal units
   double exponent = 0.0;    ///< L: W is exp(L) at the rim
   double factor = 1.0;      ///< kappa
   double constant = 0.0;    ///< c0
-  /// At least 1: what is not linear counts that many times, so that another program need not be as sharp.
+  /// At least 1: nonlinear terms count this many times, a little more, for a checker whose bounds are cruder.
   double room = 1.0;
-  /// Of a filter: that the bounds of the covariance are kept is shown, too.
+  /// For a filter: also show that the bounds of the covariance are kept.
   bool with_covariance = true;
 };
 
@@ -43,7 +43,7 @@ struct DriftResult {
 [[nodiscard]] DriftResult verify_drift(const TrackerModel& model, const Tube& tube,
                                        const DriftQuestion& question, const VerificationBudget& budget);
 
-/// Whether the same holds at so many phases, by the same bounds over cells without width. Not evidence.
+/// Whether the same is true at this many phases, by the same bounds over cells without width. Not evidence.
 [[nodiscard]] bool drift_may_hold(const TrackerModel& model, const Tube& tube, const DriftQuestion& question,
                                   int phases);
 

@@ -20,7 +20,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-/// What starts may add to the probability, relative to what the samples add.
+/// The contribution of starts to the probability, relative to that of the samples, at most.
 constexpr double kShareOfStarts = 0.05;
 
 /// A bound of the probability that |v| > V: by E exp(s |v|^2) <= (1 - 2 sigma^2 s)^(-channels/2), which every
@@ -52,7 +52,7 @@ GaussianTerms terms_for(const GaussianTask& task, int channels, double deviation
     const double of_starts = std::exp(terms.exponent * share * share);
     terms.exponent = std::log((of_samples + of_starts) / (kShareOfSamples * task.probability));
   }
-  // As little as leaves a thousandth of the probability to longer noise.
+  // The least that leaves a thousandth of the probability to longer noise.
   for (double multiple = 3.0; multiple < 40.0; multiple += 0.25) {
     terms.most_noise = multiple * deviation;
     const Interval longer = tail(terms, channels);
@@ -131,7 +131,7 @@ class RadiusSearch {
   [[nodiscard]] bool may_hold(double radius, double deviation, double factor, double constant) const {
     return may_hold(radius, terms_for(*task_, model_->recursion->samples, deviation, factor, constant));
   }
-  /// A little more than is claimed, so that another program need not be as sharp.
+  /// A little more than is claimed, for a checker whose bounds are cruder.
   static DriftQuestion question_of(double radius, const GaussianTerms& terms) {
     constexpr double kMoreNoise = 1.004;
     constexpr double kLessConstant = 0.85;
@@ -163,7 +163,8 @@ class BandSearch {
       bounds_covariance_ = bounds_covariance_ || cell.tube->bounds_covariance();
       rate = std::max(rate, cell.worth.rate);
     }
-    // What the set forgets of a start in a sample; a small part of what the tracker forgets.
+    // The share of a start that the set forgets in a sample; a small part of the share that the tracker
+    // forgets.
     factor_ = 1.0 - 0.02 * (1.0 - rate * rate);
   }
 
@@ -223,7 +224,7 @@ class BandSearch {
     return bounds_covariance_ ? kOfFilters : kUsual;
   }
 
-  /// About the least radius: what is not left is then small.
+  /// Approximately the least radius: the set that is not left is then small.
   [[nodiscard]] bool proves(RadiusSearch& search) const {
     const double share = std::sqrt(
         std::log(std::max(2.0, kShareOfStarts * task_->samples * terms_.constant)) / terms_.exponent);

@@ -17,7 +17,7 @@ constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 /// Samples between two looks at the level.
 constexpr std::size_t kLookEvery = 4;
 
-/// After how many samples a start is in the tube; nothing when it is not within `most`.
+/// The number of samples after which a start is in the tube; empty when it is not within `most`.
 std::optional<std::size_t> samples_to_lock(const CaptureProblem& problem, const PointTube& tube,
                                            PointTracker& points, Eigen::VectorXd state, double phase,
                                            std::size_t most) {

@@ -13,7 +13,7 @@ namespace veritrack::model {
 
 namespace {
 
-/// The starts at a cell of phases, and those that it is too coarse for at its halves.
+/// The starts at a cell of phases, and at its halves those for which the cell is too coarse.
 PhaseAnswer follow_halving(const CaptureProblem& problem, const CaptureGrid& grid,
                            const std::vector<char>& wanted, const CaptureOptions& options,
                            const PhaseCell& phases, int halvings) {
@@ -48,7 +48,7 @@ PhaseAnswer follow_halving(const CaptureProblem& problem, const CaptureGrid& gri
   return answer;
 }
 
-/// 0, 4, 2, 6, 1, 5, 3, 7: what fails anywhere is soon known.
+/// 0, 4, 2, 6, 1, 5, 3, 7: a failure anywhere is soon found.
 std::vector<std::size_t> spread_order(std::size_t count) {
   std::vector<std::size_t> order(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -70,14 +70,14 @@ int ring_of(const CaptureGrid& grid, std::size_t cell, int rings) {
   return std::min(static_cast<int>(distance * rings), rings - 1);
 }
 
-/// Follows the cells that are left at all phases; those that fail somewhere are left no longer. False when
-/// the deadline came before all phases were looked at: nothing is known then.
+/// Follows the remaining cells at all phases and removes those that fail somewhere. False when the deadline
+/// came before all phases were examined: nothing is known then.
 bool follow_all_phases(const CaptureProblem& problem, const CaptureGrid& grid, std::vector<char>& left,
                        const CaptureOptions& options, std::vector<CapturedCell>& cells,
                        const CaptureProgress& progress) {
   const auto phases = static_cast<std::size_t>(options.phases);
   const std::vector<std::size_t> order = spread_order(phases);
-  // What is given up in one generation is not followed in the next.
+  // Cells that are given up in one generation are not followed in the next.
   constexpr std::size_t kGeneration = 8;
   for (std::size_t first = 0; first < phases; first += kGeneration) {
     const std::size_t count = std::min(kGeneration, phases - first);

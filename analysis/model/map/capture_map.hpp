@@ -35,20 +35,20 @@ struct CaptureOptions {
   int phases = 32;               ///< cells of the phase to begin with: a power of two
   int phase_halvings = 1;        ///< of each, at most
   int cell_halvings = 4;         ///< of a cell of the grid, at most
-  std::size_t most_samples = 0;  ///< for how long a start is followed
+  std::size_t most_samples = 0;  ///< the number of samples for which a start is followed
   std::size_t stride = 4;        ///< samples between two looks at whether it is in the tube
-  double tolerance = 0.0;        ///< what a step may add to the radius, as a share of R_0
+  double tolerance = 0.0;        ///< the most that a step may add to the radius, as a share of R_0
   std::size_t most_steps = 0;    ///< for all starts of a ring at one cell of phases
-  /// The cells are followed ring by ring, from the middle outwards: what is proved of a ring stays when the
+  /// The cells are followed ring by ring, from the middle outwards: the proof for a ring stays when the
   /// deadline ends the work on a later one.
   int rings = 1;
   search::Deadline deadline = {};
 };
 
-/// What is known of a cell of the grid.
+/// The result for a cell of the grid.
 struct CapturedCell {
-  /// All starts in it, at all phases of the signal and for all noise, are in the tube after so many samples,
-  /// angles modulo 2 pi, and stay.
+  /// All starts in it, at all phases of the signal and for all noise, are in the tube after `samples`
+  /// samples, angles modulo 2 pi, and stay.
   bool is_proved = false;
   std::size_t samples = 0;     ///< when proved
   bool is_unfinished = false;  ///< the deadline came first

@@ -77,7 +77,7 @@ class PhaseRun {
   /// Those that were halved least come first: hard cells must not use up what easy ones need.
   [[nodiscard]] Company take_next() {
     const auto halvings = [](const Company& company) { return company.x_halvings + company.y_halvings; };
-    // Of equal ones the last, so that few wait.
+    // The last among equal ones, so that few wait.
     auto best = waiting_.begin();
     for (auto each = waiting_.begin(); each != waiting_.end(); ++each) {
       best = halvings(*each) <= halvings(*best) ? each : best;
@@ -103,7 +103,7 @@ class PhaseRun {
     }
   }
 
-  /// Closes the cells of which another part has failed; whether there are others.
+  /// Closes the cells with another part that has failed. Returns whether there are others.
   bool is_any_open(Company& company) const {
     bool is_any = false;
     for_each_cell_of(company.cells, [&](std::size_t column, std::size_t row, std::size_t place) {
@@ -146,7 +146,7 @@ class PhaseRun {
         company.set = std::move(next.set);
         continue;
       }
-      // What is not known at all, or grows suddenly, comes from a box that is too large, too.
+      // An unknown bound, or one that grows suddenly, is also the result of a box that is too large.
       constexpr double kSmallShare = 0.25;
       if (is_accurate && !(radius <= kSmallShare * problem_->level)) {
         fail(company, CaptureOutcome::too_coarse);
@@ -157,7 +157,7 @@ class PhaseRun {
     }
   }
 
-  /// Whether the ball grows much in a step, and counts: among starts that differ less it would not.
+  /// Whether the ball grows much in a step, and this matters: among starts that differ less it would not.
   [[nodiscard]] bool is_spreading(const FollowedStep& next, double radius) const {
     constexpr double kGrowth = 1.04;
     constexpr double kShare = 0.01;
@@ -172,7 +172,7 @@ class PhaseRun {
     const bool can_divide_x = cells.columns() > 1 || (cells.rows() == 1 && may_halve);
     const bool can_divide_y = cells.rows() > 1 || (cells.columns() == 1 && may_halve);
     const bool by_x = can_divide_x && (spread[of_x] >= spread[of_y] || !can_divide_y);
-    // Where the phase is what is too wide, narrower starts do not help.
+    // When the phase is too wide, narrower starts do not help.
     const double widest = by_x ? spread[of_x] : spread[of_y];
     constexpr double kShareOfPhase = 0.25;
     if (!(widest >= kShareOfPhase * spread[of_phase])) {
@@ -277,7 +277,7 @@ class PhaseRun {
            problem_->level + company.set.radius + spread[of_x] + spread[of_y];
   }
 
-  /// The polynomial at the middle of a box and of the phases, about.
+  /// Approximately the polynomial at the middle of a box and of the phases.
   [[nodiscard]] static double value_near(const CaptureModel& polynomial, const StartBox& outer,
                                          const StartBox& inner) {
     const auto place = [](const Interval& range, const Interval& part) {

@@ -7,11 +7,11 @@
 
 namespace veritrack::model {
 
-/// What became of a cell of the grid at one cell of phases.
+/// The outcome for a cell of the grid at one cell of phases.
 enum class CaptureOutcome {
   not_wanted,
   captured,
-  too_coarse,  ///< what narrower cells of the phase may change
+  too_coarse,  ///< narrower cells of the phase may change this
   given_up
 };
 

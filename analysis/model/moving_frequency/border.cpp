@@ -17,7 +17,7 @@ namespace {
 using rigor::BallModel;
 using rigor::Interval;
 
-/// Of two cells of frequencies.
+/// The ends of two cells of frequencies.
 struct Ends {
   Interval lower_begins, lower_ends, upper_begins, upper_ends;
 };
@@ -52,7 +52,7 @@ BallModel z_in(const Tube& tube, const Strip& strip, const BallModel& place) {
          BallModel(Interval(strip.half) / width) * place;
 }
 
-/// Whether all bounds are at most the scale of the radius; then `largest` is of bound/(scale R_b). A
+/// Whether all bounds are at most the scale of the radius; then `largest` is the largest bound/(scale R_b). A
 /// comparison with NaN is false.
 bool fits(const StepBounds& bounds, const std::vector<double>& scales, double radius, Interval& largest) {
   if (bounds.steps.size() != scales.size() || scales.empty()) {

@@ -1,6 +1,6 @@
 // From the tube of one cell of frequencies into that of the next, for a frequency that moves.
 //
-// At the border of two cells both tubes are there. A state C_a + U_a xi is, in the coordinates of the tube b,
+// Both tubes exist at the border of two cells. A state C_a + U_a xi is, in the coordinates of the tube b,
 //   U_b^-1 (C_a - C_b + U_a xi) = xi + U_b^-1 (C_a - C_b + (U_a - U_b) xi)
 // at the same phase and frequency. If that is at most R_b long for all |xi| <= R_a', a state that is at or
 // below the level R_a' of the tube a is at or below the level R_b of the tube b (docs/model-proof.md).
@@ -17,17 +17,17 @@
 
 namespace veritrack::model {
 
-/// What is asked of a border.
+/// A question about a border.
 struct BorderQuestion {
-  /// R_a': the level, in the tube that is left, at or below which a state is after a step.
+  /// R_a': the level, in the tube that the state leaves, at or below which it is after a step.
   double from_radius = 0.0;
   double to_radius = 0.0;  ///< R_b: the level in the next tube
   /// W: the frequency is within this of the border, rad/sample.
   double slew = 0.0;
   /// The same for r R_a' and r R_b, all r from this to 1.
   double least_scale = 1.0;
-  /// Of filters: that the bounds of the covariance, narrower by this share of themselves, are between those
-  /// of the next tube is shown, too. None: not asked.
+  /// For filters: also show that the bounds of the covariance, narrower by this share of themselves, are
+  /// between those of the next tube. Empty: not asked.
   std::optional<double> covariance_margin = {};
 };
 

@@ -21,7 +21,7 @@ namespace veritrack::model::detail {
 
 using rigor::Verdict;
 
-/// The search for levels that all cells of a band have in common. `progress` is told the share of the cells
+/// The search for levels that all cells of a band have in common. `progress` receives the share of the cells
 /// in which the first level is proved.
 class MovingSearch {
  public:
@@ -40,7 +40,7 @@ class MovingSearch {
       const double share = std::min(1.0, cell.frequency / std::max(cell.worth.reach, cell.frequency));
       const double level = share * cell.worth.level;
       level_ = level_ > 0.0 ? std::min(level_, level) : level;
-      // Of a shape that was not made for a slew: as much as adds up to the reach.
+      // For a shape that was not made for a slew: the slew that adds up to the reach.
       const double slew =
           share * (cell.worth.slew > 0.0 ? cell.worth.slew : cell.worth.reach * (1.0 - cell.worth.rate));
       most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, slew) : slew;
@@ -116,7 +116,7 @@ class MovingSearch {
         try_radius(kShare * widest, least * most_slew_);
       }
     }
-    // The first radius that will do need not be the best.
+    // The first radius that works need not be the best.
     constexpr double kSmaller = 0.85;
     for (double before = 0.0; slew > before;) {
       before = slew;
@@ -126,7 +126,7 @@ class MovingSearch {
                        [&](double factor) { return slew > 0.0 && proves(radius, factor * slew); });
   }
 
-  /// After `find_slew`: what each cell tolerates on its own, with the radius of the set.
+  /// After `find_slew`: the slew that each cell tolerates on its own, with the radius of the set.
   void find_own_slews() {
     for (ProvedTube& proved : set_->tubes) {
       const double radius = proved.levels.front();
@@ -165,7 +165,7 @@ class MovingSearch {
                        [&](const ProvedTube& proved) { return may_hold(proved, radius, slew); });
   }
 
-  /// Where the slew is the one of the set: another one comes once.
+  /// Only for the slew of the set: another slew is needed only once.
   [[nodiscard]] PlaceStore* places_of(const ProvedTube& proved, double slew) const {
     const auto number = static_cast<std::size_t>(&proved - set_->tubes.data());
     return slew == kept_slew_ ? places_[number].get() : nullptr;
@@ -182,8 +182,8 @@ class MovingSearch {
     }
   }
 
-  /// The least share of themselves that bounds of the covariance lose where they are fitted anew; of the
-  /// slack of the proposals, whose rest is for the width of cells.
+  /// The least share of themselves that bounds of the covariance lose at a new fit; part of the slack of the
+  /// proposals, whose rest is for the width of cells.
   [[nodiscard]] double margin_at_borders() const {
     constexpr std::array<double, 3> kMargins{0.005, 0.0075, 0.01};
     constexpr double kHalf = 0.5;  // of the level, so that the bounds decide
@@ -210,7 +210,7 @@ class MovingSearch {
 
   /// Whether levels from `scale` radius to radius shrink by the factor in a cell.
   [[nodiscard]] bool shrinks(ProvedTube& proved, double radius, double scale, double factor, double slew) {
-    // Of the largest radius, with the bounds of the covariance.
+    // For the largest radius, with the bounds of the covariance.
     const LevelQuestion question{
         radius, set_->noise, scale, with_room(factor), slew, scale == 1.0, set_->covariance_margin};
     PlaceStore* const places = places_of(proved, slew);
@@ -236,7 +236,7 @@ class MovingSearch {
                        [&](ProvedTube& proved) { return shrinks(proved, radius, scale, factor, slew); });
   }
 
-  /// How levels change at the border of the tubes number i and i + 1: at most 1, or 2 when nothing was
+  /// The factor of levels at the border of the tubes number i and i + 1: at most 1, or 2 when nothing was
   /// proved.
   [[nodiscard]] double crossing_at(std::size_t i, double radius, double scale, double factor,
                                    double slew) const {
@@ -269,7 +269,7 @@ class MovingSearch {
     return largest < 1.0 ? with_some_room(largest) : 2.0;
   }
 
-  /// Of the first level that is proved, which takes most of the time.
+  /// The share of the first level that is proved, which takes most of the time.
   void tell(double share) {
     told_ = std::max(told_, share);
     if (progress_) {
@@ -354,7 +354,8 @@ class MovingSearch {
   const search::Deadline* deadline_;
   TubeSet* set_;
   std::vector<std::size_t> failed_;
-  std::vector<VerificationBudget> grids_;            ///< of filters: from which the next verification begins
+  std::vector<VerificationBudget> grids_;            ///< for filters: the grids from which the next
+                                                     ///< verification begins
   std::vector<std::unique_ptr<PlaceStore>> places_;  ///< of the tubes of the set
   double kept_slew_ = -1.0;                          ///< none
   double level_ = 0.0;

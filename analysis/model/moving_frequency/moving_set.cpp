@@ -19,7 +19,7 @@ namespace {
 
 using detail::MovingSearch;
 
-/// Cells with a tube, without gaps: numbers from `first` up to, without it, `end`.
+/// Cells with a tube, without gaps: numbers from `first` up to, but not including, `end`.
 struct CellRun {
   std::size_t first = 0;
   std::size_t end = 0;

@@ -73,7 +73,7 @@ class SetsProof {
            rigor::certainly_less(Interval(lowered().frequency_error), required);
   }
 
-  /// A set for more does it for less: where the set does not meet the requirement, one for noise and slew
+  /// A set for more is also one for less: where the set does not meet the requirement, one for noise and slew
   /// that do not depend on the assumed ones may.
   [[nodiscard]] ProvedSet for_requirement(const SetTask& task, ProvedSet set) const {
     constexpr int kSteps = 2;

@@ -10,7 +10,7 @@
 
 namespace veritrack::model {
 
-/// Sets that were asked for; of those that were not proved, the reasons.
+/// The requested sets, and the reasons for those that were not proved.
 struct ProvedSets {
   ProvedSet starts;                    ///< without noise
   std::optional<ProvedSet> assumed;    ///< for the assumed noise and slew; none when both are 0
@@ -25,9 +25,8 @@ struct ProvedSets {
   [[nodiscard]] const ProvedSet& deciding() const { return assumed ? *assumed : starts; }
 };
 
-/// Searches and verifies. After the deadline nothing more is searched for; what is proved by then is kept.
-/// `progress` receives the share of the tasks that is done. Deterministic up to the deadline. Holds upward
-/// rounding.
+/// Searches and verifies. The search stops at the deadline; results proved by then are kept. `progress`
+/// receives the share of the tasks that is done. Deterministic up to the deadline. Holds upward rounding.
 [[nodiscard]] ProvedSets prove_sets(const SetQuestion& question, const SetProgress& progress = {});
 
 /// The proved bound of the frequency error in the long run of `assumed`, rad/sample; infinity where nothing

@@ -24,7 +24,7 @@ Eigen::VectorXd largest_deviations(const SetQuestion& question) {
 std::vector<SetTask> tasks_of(const SetQuestion& question) {
   using enum ShapeObjective;
   const Eigen::VectorXd deviations = largest_deviations(question);
-  // An amplitude that varies is a disturbance, without noise, too. (Parts of a range are narrow: shapes are
+  // An amplitude that varies is a disturbance, even without noise. (Parts of a range are narrow: shapes are
   // those of one amplitude; see TubeSearch::prove.)
   const bool varies = question.tracker.amplitude_varies && !question.tone_at;
   std::vector<SetTask> tasks;
@@ -43,7 +43,7 @@ std::vector<SetTask> tasks_of(const SetQuestion& question) {
     tasks.back().largest_error = question.required_error->lower();
   }
   if (question.deadline.is_set() && tasks.size() > 1) {
-    std::swap(tasks[0], tasks[1]);  // what is required rests on it
+    std::swap(tasks[0], tasks[1]);  // the requirement rests on it
   }
   if (question.largest_noise) {
     tasks.push_back(

@@ -1,5 +1,5 @@
-// What is asked of a tracker over a band: its sets for starts, for the assumed noise and slew, and for as
-// much noise or slew as it tolerates.
+// A question about a tracker over a band: its sets for starts, for the assumed noise and slew, and for the
+// most noise or slew that it tolerates.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace veritrack::model {
 
-/// The tracker on its tone, what is assumed, and which sets are wanted.
+/// The tracker on its tone, the assumptions, and the requested sets.
 struct SetQuestion {
   TrackedTone tone;      ///< for proposals
   TrackerModel tracker;  ///< for proofs
@@ -26,10 +26,11 @@ struct SetQuestion {
   bool assumes_start = false;  ///< deviations of starts are assumed: shapes are made for them
   /// The frequency error is to be less, rad/sample.
   std::optional<rigor::Interval> required_error = {};
-  bool largest_noise = false;  ///< how much noise is tolerated
-  bool largest_slew = false;   ///< how much slew, without noise
-  bool is_thorough = false;    ///< also what each cell tolerates, and what is expected to first order
-  /// After it nothing more is searched for; what is required is searched for first.
+  bool largest_noise = false;  ///< the most noise that is tolerated
+  bool largest_slew = false;   ///< the most slew, without noise
+  bool is_thorough = false;    ///< also the disturbance that each cell tolerates, and the error expected to
+                               ///< first order
+  /// The search stops there; required sets are searched for first.
   search::Deadline deadline = {};
 
   [[nodiscard]] bool is_disturbed() const { return noise > 0.0 || slew > 0.0; }

@@ -24,13 +24,13 @@ class TubeSearch {
   TubeSearch(const ToneAtAmplitude& tone_at, const TrackerModel& tracker, SearchedBand band,
              search::Deadline deadline);
 
-  /// Of the whole band. For a constant frequency, or one that moves: what the task says. `progress` receives
-  /// the share that is done, and must not be empty.
+  /// Tubes over the whole band. For a constant frequency, or one that moves, as the task states. `progress`
+  /// receives the share that is done, and must not be empty.
   [[nodiscard]] TubeSet prove(const SetTask& task, const SetProgress& progress) const;
-  /// Of a filter in the long run, inside the set; nothing unless it is proved for all amplitudes.
+  /// Tubes of a filter in the long run, inside the set; empty unless they are proved for all amplitudes.
   [[nodiscard]] std::optional<TubeSet> prove_long_run(const TubeSet& set) const;
   /// To first order, at the worst of some frequencies of the set and of the amplitudes in the middle of the
-  /// parts, each of which is constant; nothing where one has no steady state.
+  /// parts, each of which is constant; empty where one has no steady state.
   [[nodiscard]] std::optional<LinearWorstCase> linear_over(const TubeSet& set) const;
 
  private:

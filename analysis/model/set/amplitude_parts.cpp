@@ -16,7 +16,7 @@ namespace veritrack::model {
 
 namespace {
 
-/// Why nothing was proved for parts; neighbours with equal reasons are told together.
+/// The reasons why nothing was proved for parts; neighbours with equal reasons are reported together.
 class FailedParts {
  public:
   void add(std::string reason, const AmplitudeRange& part) {

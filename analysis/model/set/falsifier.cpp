@@ -49,7 +49,7 @@ class AttackRun {
         amplitudes_(model.amplitude_varies ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.5}),
         nexts_(directions_.size() * amplitudes_.size()) {}
 
-  /// Where covariances of a filter with bounds begin, between them: see PointTracker::state.
+  /// The start of a filter's covariance between its bounds: see PointTracker::state.
   void begin_with_covariance(Eigen::MatrixXd place) { place_ = std::move(place); }
 
   void begin(const Eigen::VectorXd& coordinates) {

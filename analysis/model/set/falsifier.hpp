@@ -11,8 +11,8 @@
 
 namespace veritrack::model {
 
-/// The tone of a simulation, and its disturbances. At each sample they are chosen, of those that are tried,
-/// so that the next level is the largest.
+/// The tone of a simulation, and its disturbances. At each sample the disturbances are chosen, among those
+/// that are tried, so that the next level is the largest.
 struct AttackedTone {
   double frequency = 0.0;  ///< rad/sample, at the start
   double phase = 0.0;      ///< rad, at the start
@@ -33,7 +33,7 @@ struct AttackedSample {
                                                           const AttackedTone& tone,
                                                           const Eigen::VectorXd& start, int samples);
 
-/// How hard to try.
+/// The effort of the attempt.
 struct AttackSettings {
   int starts = 200;    ///< over all tubes of a set
   int samples = 2000;  ///< from each start
@@ -41,7 +41,7 @@ struct AttackSettings {
   std::uint64_t seed = 20261121;
 };
 
-/// What the simulations reached. Infinite when one left the finite numbers.
+/// The values that the simulations reached. Infinite when one left the finite numbers.
 struct TubeAttack {
   int starts = 0;
   int samples = 0;               ///< from each

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kOverlap = 1e-9;  // of neighbouring slices, as a share of the frequency
 
-/// The worst of all lists between these frequencies; nothing unless each list covers them.
+/// The worst of all lists between these frequencies; empty unless each list covers them.
 std::optional<FrequencySlice> worst_between(const std::vector<std::vector<FrequencySlice>>& lists, double low,
                                             double high) {
   FrequencySlice worst{low, high, Interval::empty(), 0.0, INFINITY};

@@ -1,4 +1,4 @@
-// What is known of the estimate in slices of the band: for figures and tables.
+// Bounds on the estimate in slices of the band: for figures and tables.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace veritrack::model {
 
-/// Frequencies from low to high, rad/sample, and bounds that hold at each of them. Infinite, or empty, where
-/// nothing is known.
+/// Frequencies from low to high, rad/sample, and bounds that are valid at each of them. Infinite, or empty,
+/// where nothing is known.
 struct FrequencySlice {
   double low = 0.0, high = 0.0;
   rigor::Interval bias;  ///< contains the mean error over the phase, rad/sample
@@ -19,7 +19,7 @@ struct FrequencySlice {
 /// The larger one; infinity when one of them is unknown: infinite or not a number.
 [[nodiscard]] double larger_bound(double a, double b);
 
-/// Bounds that hold in each of several lists, for instance for each part of the amplitudes, at the
+/// Bounds that are valid in each of several lists, for instance for each part of the amplitudes, at the
 /// frequencies that all of them cover.
 [[nodiscard]] std::vector<FrequencySlice> worst_of(const std::vector<std::vector<FrequencySlice>>& lists);
 

@@ -16,7 +16,7 @@ namespace veritrack::model::detail {
 /// The search for the levels of one tube.
 class LevelSearch {
  public:
-  /// `share`: of the band, that this cell is; of what the curve may cost.
+  /// `share`: the share of the band that this cell is, and of the effort that the curve may cost.
   LevelSearch(const TrackerModel& model, const TubeProposal& proposal, const SetTask& task,
               double share = 1.0)
       : model_(&model),
@@ -35,14 +35,14 @@ class LevelSearch {
     fast_ = 1.0 - 0.5 * room;
   }
 
-  /// The largest radius about the proposal for this noise, with levels below; nothing when none is proved.
+  /// The largest radius near the proposal for this noise, with levels below; empty when none is proved.
   [[nodiscard]] std::optional<ProvedTube> with_noise(double noise) {
     double radius = largest_radius(level(), [&](double tried) { return may_hold(tried, noise); });
     for (int i = 0; i < 60 && radius > 0.0 && !is_locked(*model_, proved_.tube, radius); ++i) {
       radius *= 0.93;
     }
     if (radius > 0.0 && proved_.tube.bounds_covariance()) {
-      // A little less than what points allow takes a fraction of the cells.
+      // A little less than points allow takes a fraction of the cells.
       most_for_filter_ = kFewForFilter;
       for (const double factor : {kFactors[0], kFactors[1], kFactors[2]}) {
         if (proves_with_lower(factor * radius, noise)) {
@@ -74,7 +74,7 @@ class LevelSearch {
   }
 
   /// A tube for the largest noise that is found up to `most`, and a little less than that noise: room for the
-  /// checker's arithmetic. (What is proved for some noise is proved for less.)
+  /// checker's arithmetic. (A proof for some noise is also one for less.)
   [[nodiscard]] std::optional<std::pair<ProvedTube, double>> with_largest_noise(double most) {
     double best_noise = 0.0;
     double best_radius = 0.0;
@@ -108,7 +108,7 @@ class LevelSearch {
       try_radius(largest_radius(level(), [&](double tried) { return may_hold(tried, task_->known_noise); }),
                  task_->known_noise);
     }
-    // The first radius that will do need not be the best.
+    // The first radius that works need not be the best.
     constexpr double kSmaller = 0.85;
     for (double before = 0.0; best_noise > before && best_noise < most;) {
       before = best_noise;
@@ -143,11 +143,11 @@ class LevelSearch {
 
  private:
   static constexpr double kBytesOfPlaces = 6.4e7;
-  /// What is tried, as shares of what points allow.
+  /// The radii that are tried, as shares of the one that points allow.
   static constexpr double kDeep = 1e-3;  ///< of the first level
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
 
-  /// The guess, unless errors were larger than the frequency: of a step that is nearly linear.
+  /// The guess, unless errors were larger than the frequency: for a step that is nearly linear.
   [[nodiscard]] double level() const {
     const ShapeWorth& worth = proposal_->worth;
     return worth.reach > proposal_->frequency ? worth.level * proposal_->frequency / worth.reach
@@ -157,7 +157,7 @@ class LevelSearch {
   [[nodiscard]] bool may_hold(double radius, double noise) {
     constexpr int kPhases = 24;
     LevelQuestion question{radius, noise};
-    // What is kept for a radius is kept for smaller ones.
+    // Bounds that are kept for a radius are kept for smaller ones.
     question.with_covariance = radius > kept_radius_;
     const bool may =
         !task_->deadline.is_over() && may_shrink(*model_, proved_.tube, question, kPhases, slow_, &places_);
@@ -173,7 +173,7 @@ class LevelSearch {
     proved_.shrinking = {slow_};
     return true;
   }
-  /// Of a filter, whose cells are dear: together with a level below.
+  /// For a filter, whose cells are expensive: together with a level below.
   bool proves_with_lower(double radius, double noise) {
     if (!proved_.tube.bounds_covariance() || !is_locked(*model_, proved_.tube, radius)) {
       return false;
@@ -219,7 +219,7 @@ class LevelSearch {
   void descend(double noise) {
     const double least = task_->with_curve ? 1e-7 * proved_.levels.front() : 0.02 * proved_.levels.front();
     constexpr std::size_t kMostLevels = 24;
-    // Where cells become many, the curve itself is what the models cannot resolve.
+    // Where there are many cells, the models cannot resolve the curve itself.
     const std::size_t most_cells = 3 * last_cells_ + 1000;
     proved_.grid.most_cells = std::min(proved_.grid.most_cells, 2 * most_cells);
     if (proved_.tube.bounds_covariance()) {
@@ -235,8 +235,8 @@ class LevelSearch {
     }
   }
 
-  /// Whether levels are far below the first one, and the curve is to be known as far as cells are worth it:
-  /// of few states, whose cells are cheap.
+  /// Whether levels are far below the first one, and the curve must be known as accurately as the cells are
+  /// worth: for few states, whose cells are cheap.
   [[nodiscard]] bool is_for_curve() const {
     constexpr std::size_t kFewStates = 3;
     return task_->with_curve && !proved_.tube.bounds_covariance() &&
@@ -296,7 +296,7 @@ class LevelSearch {
     const bool is_first = proved_.levels.size() == 1;
     // Near the largest radius levels hardly shrink.
     const std::array<Step, 5> far{{{0.125, fast_}, {0.25, fast_}, {0.5, fast_}, {0.7, slow_}, {0.9, slow_}}};
-    // Far down the curve is what models cannot resolve, and a step that fails has cost many cells.
+    // Far down, models cannot resolve the curve, and a step that fails has cost many cells.
     const std::array<Step, 2> deep{{{0.25, fast_}, {0.5, fast_}}};
     const bool is_deep = task_->with_curve && proved_.levels.back() < kDeep * proved_.levels.front();
     const std::array<Step, kNear.size()> near{{{kNear[0], slow_}, {kNear[1], slow_}, {kNear[2], slow_}}};
@@ -306,7 +306,7 @@ class LevelSearch {
       if (!may_be_below(radius, noise, step)) {
         return false;
       }
-      // What is verified is from this number up.
+      // Levels are verified from this one up.
       const double scale = next / radius;
       LevelQuestion between{radius, noise, scale * (1.0 - 1e-12), step.shrinking};
       between.with_covariance = false;
@@ -325,12 +325,12 @@ class LevelSearch {
                      : std::any_of(far.begin(), far.end(), take);
   }
 
-  /// Of a filter, cells of a grid: for the first level; for lower ones, unless the first took more.
+  /// For a filter, cells of a grid: for the first level; for lower ones, unless the first took more.
   static constexpr int kMostForFilter = 8192;
   static constexpr int kUsualForFilter = 2048;
   static constexpr int kFewForFilter = 512;
   static constexpr int kFewestForFilter = 1024;
-  /// How far below the first level the second may be.
+  /// The distance of the second level below the first, at most.
   static constexpr std::array<double, 3> kNear{0.5, 0.7, 0.9};
 
   const TrackerModel* model_;
@@ -340,9 +340,9 @@ class LevelSearch {
   ProvedTube proved_;
   PlaceStore places_;
   std::size_t last_cells_ = 0;      ///< of the last verification that succeeded
-  VerificationBudget grid_{16, 1};  ///< of a filter: from which the next verification begins
+  VerificationBudget grid_{16, 1};  ///< for a filter: the grid from which the next verification begins
   int most_for_filter_ = kMostForFilter;
-  double kept_radius_ = 0.0;  ///< for which points allow that bounds of a covariance are kept
+  double kept_radius_ = 0.0;  ///< a radius for which, at points, bounds of a covariance are kept
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

@@ -83,7 +83,7 @@ class LongRunLevels {
                                      {0.93, slow_},
                                      {0.97, slow_},
                                      {0.99, slow_}}};
-    // The last levels come near to what is possible, and would take most of the time.
+    // The last levels are close to the limit, and would take most of the time.
     constexpr int kMany = 1024;
     constexpr std::size_t kWideSteps = 6;
     const bool is_dear = grid_.phases * grid_.frequencies > kMany;
@@ -100,7 +100,7 @@ class LongRunLevels {
         !may_shrink(*model_, proved_.tube, below, kPhases, with_room(step.shrinking), &places_)) {
       return false;
     }
-    // What is verified is from this number up.
+    // Levels are verified from this one up.
     LevelQuestion between{radius, noise_, step.factor * (1.0 - 1e-12), with_room(step.shrinking)};
     between.with_covariance = false;
     const bool is_first = proved_.levels.size() == 1;
@@ -125,7 +125,7 @@ class LongRunLevels {
   double noise_;
   ProvedTube proved_;
   PlaceStore places_;
-  VerificationBudget grid_{16, 1};  ///< from which the next verification begins
+  VerificationBudget grid_{16, 1};  ///< the grid from which the next verification begins
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

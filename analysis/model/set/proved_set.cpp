@@ -25,7 +25,7 @@ double largest_size(const Interval& range) {
   return rigor::is_finite(range) ? std::max(std::fabs(range.lower()), std::fabs(range.upper())) : INFINITY;
 }
 
-/// Bias and ripple at the lowest level, with room for rounding and a tenth of what is unknown where that is
+/// Bias and ripple at the lowest level, with room for rounding and a tenth of the uncertainty where that is
 /// least.
 void add_bias_and_ripple(ProvedSet& set, const TubeErrors& settled) {
   double unknown = INFINITY;
@@ -41,7 +41,7 @@ void add_bias_and_ripple(ProvedSet& set, const TubeErrors& settled) {
   set.ripple = larger_bound(0.0, settled.ripple + of_ripple);
 }
 
-/// What follows from one tube; without the distance to false locks.
+/// The consequences of one tube, without the distance to false locks.
 ProvedSet bounds_of(const TrackerModel& tracker, const ProvedTube& proved,
                     const std::vector<Interval>& deviations, std::vector<FrequencySlice>* slices) {
   constexpr ErrorGrid kGrid;
@@ -50,7 +50,7 @@ ProvedSet bounds_of(const TrackerModel& tracker, const ProvedTube& proved,
   ProvedSet set;
   set.half_distance = INFINITY;
   set.reach = bound_reach(tracker, proved.tube, radius, kGrid) * 0.999;
-  // Of a filter whose covariance is bounded, those of the estimate.
+  // For a filter whose covariance is bounded, those of the estimate.
   const std::vector<Interval> of_tube(
       deviations.begin(), deviations.begin() + static_cast<std::ptrdiff_t>(proved.tube.curve.size()));
   const double start = bound_start(tracker, proved.tube, of_tube, kGrid);
@@ -69,7 +69,7 @@ ProvedSet bounds_of(const TrackerModel& tracker, const ProvedTube& proved,
   return set;
 }
 
-/// Bounds that hold for both sets.
+/// Bounds that are valid for both sets.
 void include(ProvedSet& worst, const ProvedSet& set) {
   worst.frequency_error = larger_bound(worst.frequency_error, set.frequency_error);
   worst.half_distance = std::min(worst.half_distance, set.half_distance);

@@ -1,4 +1,4 @@
-// What follows from a set of tubes: bounds of the frequency error, bias, ripple and reach.
+// The consequences of a set of tubes: bounds of the frequency error, bias, ripple and reach.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@
 
 namespace veritrack::model {
 
-/// A set of tubes over the band, or a part of it, and what follows there. Bounds have a thousandth of room,
-/// so that an independent program need not be as sharp. Infinite, or empty, where nothing is known.
+/// A set of tubes over the band, or a part of it, and its consequences there. Bounds are a thousandth wider,
+/// for a checker whose bounds are cruder. Infinite, or empty, where nothing is known.
 struct ProvedSet {
   TubeSet tubes;
   double frequency_error = INFINITY;  ///< of level R_0, at most, rad/sample
@@ -29,9 +29,9 @@ struct ProvedSet {
   [[nodiscard]] bool has_part() const { return !tubes.is_complete && !tubes.tubes.empty(); }
 };
 
-/// What follows from tubes at the frequencies that they cover, for starts within `deviations` of the curve,
-/// one for each state. Where the amplitudes are in parts it holds for each of them. Fills `slices`, in the
-/// order of their frequencies, unless it is null. Holds upward rounding.
+/// The consequences of tubes at the frequencies that they cover, for starts within `deviations` of the curve,
+/// one for each state. Where the amplitudes are in parts the bounds are valid for each of them. Fills
+/// `slices`, in the order of their frequencies, unless it is null. Holds upward rounding.
 [[nodiscard]] ProvedSet conclude(const TrackerModel& tracker, TubeSet tubes,
                                  const std::vector<rigor::Interval>& deviations,
                                  std::vector<FrequencySlice>* slices = nullptr);

@@ -9,8 +9,8 @@
 
 namespace veritrack::model {
 
-/// From low to high, rad/sample, and why not in the rest of the band: one sentence without a full stop for
-/// each end that is out of reach.
+/// From low to high, rad/sample, and the reasons why not in the rest of the band: one sentence without a full
+/// stop for each end that is out of reach.
 struct SearchedBand {
   double low = 0.0;
   double high = 0.0;

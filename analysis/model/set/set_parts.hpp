@@ -8,25 +8,25 @@
 
 namespace veritrack::model {
 
-/// Which tubes form one part: numbers from `first` up to, without it, `end`.
+/// The tubes of one part: numbers from `first` up to, but not including, `end`.
 struct TubeRun {
   std::size_t first = 0;
   std::size_t end = 0;
-  FrequencyRange range;  ///< what they cover of the band, rounded inward
+  FrequencyRange range;  ///< the part of the band that they cover, rounded inward
 };
 
 /// The parts of low <= omega <= high, rad/sample, that tubes in the order of their frequencies cover without
 /// gaps, as far as they are of any width; tubes of one part turn alike.
 [[nodiscard]] std::vector<TubeRun> runs_of(const std::vector<ProvedTube>& tubes, double low, double high);
 
-/// The widest one, of equals the first. Throws std::invalid_argument when there is none.
+/// The widest one, the first among equals. Throws std::invalid_argument when there is none.
 [[nodiscard]] const TubeRun& widest(const std::vector<TubeRun>& runs);
 
-/// Says what the tubes of a set, in any order, cover of the band, and whether that is all of it. Otherwise
-/// keeps those of the widest part alone.
+/// Records which part of the band the tubes of a set, in any order, cover, and whether that is all of it.
+/// Otherwise keeps only those of the widest part.
 void keep_widest_part(TubeSet& set, double low, double high);
 
-/// Cells for which nothing was found, and why; neighbours with equal reasons are told together.
+/// Cells for which nothing was found, and the reasons; neighbours with equal reasons are reported together.
 class FailedCells {
  public:
   void add(const std::string& reason, double low, double high);

@@ -19,7 +19,7 @@ BandSettings settings_of(const TrackedTone& tone, const SetTask& task, double lo
   settings.tube.fine_curve = task.with_curve;
   settings.tube.shape.objective = task.objective;
   settings.tube.shape.start = task.deviations;
-  // Of the largest noise it would be the one that is given.
+  // For the largest noise it would be the given one.
   settings.tube.shape.noise = task.noise + (task.largest_noise ? 0.0 : error_from_amplitude(tone));
   settings.tube.shape.slew = task.slew;
   settings.tube.shape.largest_reach = task.largest_error;

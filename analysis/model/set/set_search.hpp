@@ -1,4 +1,4 @@
-// What the searches for sets of tubes have in common.
+// The common parts of the searches for sets of tubes.
 #pragma once
 
 #include <cmath>
@@ -9,11 +9,11 @@
 
 namespace veritrack::model {
 
-/// How tubes are proposed for a task, over a band in rad/sample.
+/// The proposal of tubes for a task, over a band in rad/sample.
 [[nodiscard]] BandSettings settings_of(const TrackedTone& tone, const SetTask& task, double low, double high);
 
-/// About the largest radius up to 1.6 `level`, and down to 1e-4 of it, for which `may_hold(radius)`; 0 when
-/// there is none. With noise growth is too large for small radii, and always for large ones.
+/// Approximately the largest radius up to 1.6 `level`, and down to 1e-4 of it, for which `may_hold(radius)`;
+/// 0 when there is none. With noise growth is too large for small radii, and always for large ones.
 template <typename Test>
 [[nodiscard]] double largest_radius(double level, const Test& may_hold) {
   double radius = 0.0;
@@ -26,8 +26,8 @@ template <typename Test>
   return radius;
 }
 
-/// What is verified where `shrinking` is claimed: a little less, so that another program need not be as
-/// sharp.
+/// The factor that is verified where `shrinking` is claimed: a little less, for a checker whose bounds are
+/// cruder.
 [[nodiscard]] double with_room(double shrinking);
 
 /// ", where the denominator x (line 3) may vanish with frequency errors up to about 0.1 rad/sample, and not

@@ -83,7 +83,7 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
     set.noise = std::isfinite(noise) ? noise : 0.0;
     return set;
   }
-  // What is proved for some noise is proved for less.
+  // A proof for some noise is also one for less.
   set.noise = INFINITY;
   for (const auto& [frequency, proved_for] : noises) {
     const bool is_kept =

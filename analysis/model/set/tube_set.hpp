@@ -21,17 +21,18 @@ struct ProvedTube {
   Tube tube;
   std::vector<double> levels;
   std::vector<double> shrinking;
-  VerificationBudget grid;          ///< from which the verification began
+  VerificationBudget grid;          ///< the first grid of the verification
   std::size_t cells = 0;            ///< that it needed
   ShapeParameters parameters = {};  ///< of the proposal; not evidence
-  /// Of sets for the largest disturbance, where it was looked for: what this tube alone tolerates, proved
-  /// like the set, of the slew as long as the frequency stays in its cell; otherwise 0. Not evidence.
+  /// For sets for the largest disturbance, where it was searched for: the disturbance that this tube alone
+  /// tolerates, proved like the set (a slew as long as the frequency stays in its cell); otherwise 0. Not
+  /// evidence.
   double own_noise = 0.0, own_slew = 0.0;
-  /// Of a filter's tube in the long run: how it is entered.
+  /// For a filter's tube in the long run: how it is entered.
   std::optional<LongRunEntry> entry = {};
 };
 
-/// What a set is for.
+/// The purpose of a set.
 struct SetTask {
   std::string name;
   ShapeObjective objective = ShapeObjective::largest_starts;
@@ -39,15 +40,16 @@ struct SetTask {
   double slew = 0.0;           ///< W, rad/sample per sample
   bool largest_noise = false;  ///< search for the largest V, at a constant frequency
   bool largest_slew = false;   ///< search for the largest W, with the V that is given
-  bool of_each_cell = false;   ///< and for the largest that each cell alone tolerates, which takes longer
-  bool with_curve = false;     ///< levels down to what the curve is known to, for the bias
+  bool of_each_cell = false;   ///< also search for the largest that each cell alone tolerates, which takes
+                               ///< longer
+  bool with_curve = false;     ///< levels down to the accuracy of the curve, for the bias
   Eigen::VectorXd deviations;  ///< of starts, one for each state; or empty
-  /// The frequency error that is asked for, rad/sample, or 0: of a filter whose covariance is bounded, tubes
-  /// are no larger. (Others have levels that are as good.)
+  /// The requested frequency error, rad/sample, or 0: tubes of a filter whose covariance is bounded are no
+  /// larger. (Others have levels that are as good.)
   double largest_error = 0.0;
   search::Deadline deadline = {};  ///< after which nothing more is proved
-  /// In searches for the largest: as much as another set tolerates, with which they begin where they find
-  /// nothing else.
+  /// In searches for the largest: the disturbance that another set tolerates, with which they begin where
+  /// they find nothing else.
   double known_noise = 0.0, known_slew = 0.0;
 };
 
@@ -84,23 +86,23 @@ struct TubeSet {
   std::vector<ProvedTube> tubes;
   /// For Gaussian noise: one level in each tube, and no statement that no state leaves it; V is 0 here.
   std::optional<GaussianTerms> gaussian;
-  /// With a slew, for each pair of levels: how levels change at borders of cells, after the step's shrinking
-  /// (docs/model-proof.md, section 4).
+  /// With a slew, for each pair of levels: the factor of levels at borders of cells, after the step's
+  /// shrinking (docs/model-proof.md, section 4).
   std::vector<double> crossing;
-  /// With a slew, of filters: what their bounds of the covariance have to spare at every step, as a share of
-  /// themselves, and may lose at a border.
+  /// For filters, with a slew: the share of themselves that their bounds of the covariance leave at every
+  /// step, and may lose at a border.
   double covariance_margin = 0.0;
   bool is_complete = false;          ///< every frequency of the band has a tube
   std::vector<std::string> reasons;  ///< otherwise: which part has none, and why
-  FrequencyRange part;               ///< with tubes: what they cover of the band, rounded inward
-  /// Of an amplitude that is constant and somewhere in a range: the parts of the range, without gaps, each
-  /// with tubes of its own and what there is with a slew. Otherwise empty.
+  FrequencyRange part;               ///< with tubes: the part of the band that they cover, rounded inward
+  /// For an amplitude that is constant and somewhere in a range: the parts of the range, without gaps, each
+  /// with its own tubes and its own data for a slew. Otherwise empty.
   std::vector<AmplitudePart> amplitudes;
   /// All parts of the band for which tubes were proved, also those that were given up for a wider one.
   std::vector<FrequencyRange> parts;
 };
 
-/// Told the share of the band that is done.
+/// Called with the share of the band that is done.
 using SetProgress = std::function<void(double share)>;
 
 /// For low <= omega <= high, rad/sample, all of them covered when complete. Deterministic up to the deadline,
@@ -109,16 +111,17 @@ using SetProgress = std::function<void(double share)>;
                                 const SetTask& task, const SetProgress& progress = {});
 
 /// Tubes of a filter in the long run, for the noise of `set`, inside the lowest levels of its tubes: one for
-/// each of them, of the same frequencies (docs/model-proof.md, Theorem 6). Nothing unless they are proved for
+/// each of them, of the same frequencies (docs/model-proof.md, Theorem 6). Empty unless they are proved for
 /// all.
 [[nodiscard]] std::optional<TubeSet> prove_long_run_set(const TrackedTone& tone, const TrackerModel& model,
                                                         const TubeSet& set, const search::Deadline& deadline);
 
-/// After how many samples a start of level R_0 is at level R_`level`: an upper bound. `crossing`: of its set.
+/// An upper bound on the number of samples after which a start of level R_0 is at level R_`level`.
+/// `crossing`: of its set.
 [[nodiscard]] double samples_until(const ProvedTube& proved, std::size_t level,
                                    const std::vector<double>& crossing = {});
-/// After how many samples a start of level R_0 of `around` is at the level `level` of a tube in the long run
-/// inside it: an upper bound.
+/// An upper bound on the number of samples after which a start of level R_0 of `around` is at the level
+/// `level` of a tube in the long run inside it.
 [[nodiscard]] double samples_until_long_run(const ProvedTube& around, const ProvedTube& inner,
                                             std::size_t level);
 

@@ -1,4 +1,4 @@
-// What the proposal of a tube over a cell of frequencies takes and gives, for trackers with and without a
+// The input and the result of proposing a tube over a cell of frequencies, for trackers with and without a
 // filter's covariance.
 #pragma once
 
@@ -13,15 +13,15 @@ namespace veritrack::model {
 struct TubeSettings {
   ShapeSettings shape;
   SteadyStateSettings steady_state;
-  /// Of estimated frequencies on the curve against those on the true steady state, rad/sample: what a bias
-  /// and a ripple can be known to.
+  /// The error of estimated frequencies on the curve against those on the true steady state, rad/sample: the
+  /// accuracy to which a bias and a ripple can be known.
   double largest_curve_error = 1e-8;
-  /// Of trackers with few states the curve is a polynomial of a higher degree in the frequency, so that a
+  /// For trackers with few states the curve is a polynomial of a higher degree in the frequency, so that a
   /// bias is known to a thousandth of that.
   bool fine_curve = false;
-  /// Of the worth of the shape, by interpolation in the frequency.
+  /// The loss of the shape's worth by interpolation in the frequency.
   double largest_loss = 0.15;
-  /// Of the worth over the cell: 1 less the ratio of its least to its largest value.
+  /// The variation of the worth over the cell: 1 minus the ratio of its least to its largest value.
   double largest_variation = 0.5;
 };
 
@@ -35,7 +35,7 @@ enum class TubeOutcome {
   cell_too_wide     ///< curve or shape are no polynomials in the frequency over this cell: see the numbers
 };
 
-/// A tube, or why there is none.
+/// A tube, or the reason why there is none.
 struct TubeProposal {
   TubeOutcome outcome = TubeOutcome::no_steady_state;
   double frequency = 0.0;   ///< of the middle, rad/sample
@@ -44,8 +44,8 @@ struct TubeProposal {
   double curve_error = 0.0;  ///< estimated, rad/sample
   double loss = 0.0;         ///< the largest over the cell
   double variation = 0.0;    ///< of the worth over the cell
-  ShapeProposal shape;       ///< the parameters, and what they are worth at the middle
-  /// Over the cell, of the tube as it is: the level is a guess for its radius, rad/sample.
+  ShapeProposal shape;       ///< the parameters, and their worth at the middle
+  /// Over the cell, for the tube as it is: the level is a guess for its radius, rad/sample.
   ShapeWorth worth;
   std::optional<Tube> tube;  ///< when proposed; its curve and shape also when the cell is too wide
 };

@@ -26,7 +26,7 @@ double spectral_norm(const MatrixXd& matrix) {
   return std::sqrt(std::max(0.0, rigor::largest_eigenvalue(gram)));
 }
 
-/// Of a tensor whose rows are n x n x n arrays: with U applied to all three, as they stand.
+/// A tensor whose rows are n x n x n arrays, with U applied to all three indices in place.
 MatrixXd third_in_coordinates(const MatrixXd& third, const MatrixXd& u) {
   const Index n = u.rows();
   MatrixXd result = third;  // n x (j n + k) n + l, symmetric in j, k, l
@@ -44,7 +44,7 @@ MatrixXd third_in_coordinates(const MatrixXd& third, const MatrixXd& u) {
   return result;
 }
 
-/// The part of the step at one phase, or nothing when the shape is not one.
+/// The part of the step at one phase, or empty when the shape is invalid.
 std::optional<PhaseBounds> bound_at(const CurveDynamics& dynamics, std::size_t phase, const MatrixXd& u,
                                     const MatrixXd& u_next, const DisturbanceWeights& weights) {
   const StepDerivatives& step = dynamics.step[phase];
@@ -93,7 +93,7 @@ std::optional<PhaseBounds> bound_at(const CurveDynamics& dynamics, std::size_t p
   return bounds;
 }
 
-/// What is left of R at a phase for the linear part, under noise V.
+/// The remainder of R at a phase for the linear part, under noise V.
 double left_at(const PhaseBounds& b, double level, double noise) {
   return level - level * level * (0.5 * b.second + level * b.third / 6.0) - b.mixed * level * noise -
          0.5 * b.sample * noise * noise;

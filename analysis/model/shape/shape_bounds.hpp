@@ -1,4 +1,4 @@
-// What a shape around a curve is worth, in floating point: bounds on a tracker's step in its coordinates to
+// The worth of a shape around a curve, in floating point: bounds on a tracker's step in its coordinates to
 // third order at the curve. For choosing a shape; nothing here is a claim.
 #pragma once
 
@@ -22,18 +22,18 @@ struct PhaseBounds {
   double rate = 0.0;
   double disturbed_rate = 0.0;
   double second = 0.0, third = 0.0, mixed = 0.0, sample = 0.0;
-  /// Up to which R the estimated frequency is nearly a linear function: R |U' h'' U| <= |grad h U|/2.
+  /// The R up to which the estimated frequency is nearly a linear function: R |U' h'' U| <= |grad h U|/2.
   double straight = 0.0;
-  double reach = 0.0;  ///< |grad h U|: how far the estimated frequency is at most, for R = 1
+  double reach = 0.0;  ///< |grad h U|: the largest deviation of the estimated frequency, for R = 1
 };
 
-/// Weights b of the noise and c of the slew, of which one may be 0: then it is not there.
+/// Weights b of the noise and c of the slew. One may be 0: then that disturbance is absent.
 struct DisturbanceWeights {
   double noise = 1.0;
   double slew = 0.0;
 };
 
-/// Nothing when the shape or the weights do not fit anywhere.
+/// Empty when the shape or the weights do not fit anywhere.
 [[nodiscard]] std::optional<std::vector<PhaseBounds>> bound_along(const CurveDynamics& dynamics,
                                                                   const ShapeOnGrid& shape,
                                                                   const DisturbanceWeights& weights);

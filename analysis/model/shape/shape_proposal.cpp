@@ -25,7 +25,7 @@ class ShapeSearch {
   ShapeSearch(const CurveDynamics& dynamics, const ShapeSettings& settings, const ShapeParameters& nearby)
       : dynamics_(&dynamics), settings_(&settings), coordinates_(dynamics, settings, nearby) {}
 
-  /// Nothing when there is no such shape.
+  /// Empty when there is no such shape.
   [[nodiscard]] std::optional<ShapeWorth> worth_at(const ShapeParameters& parameters, int harmonics) const {
     const auto shape = shape_on_grid(*dynamics_, parameters, harmonics);
     return shape && is_well_conditioned(*shape) ? worth_of(*dynamics_, *shape, parameters.weights, *settings_)
@@ -55,14 +55,14 @@ class ShapeSearch {
       }
     }
   }
-  /// From the parameters nearby.
+  /// Starts from the parameters nearby.
   void begin_nearby() {
     if (coordinates_.is_usable()) {
       point_ = coordinates_.nearby();
       score_ = score_at(point_);
     }
   }
-  /// Goes on from the best so far.
+  /// Continues from the best so far.
   void improve(int evaluations) {
     if (!std::isfinite(score_)) {
       return;
@@ -103,7 +103,7 @@ class ShapeSearch {
   double score_ = kWorthless;
 };
 
-/// The best parameters found, with as few harmonics as lose hardly anything.
+/// The best parameters found, with the fewest harmonics that lose hardly anything.
 std::optional<ShapeProposal> finished(const ShapeSearch& search) {
   if (!std::isfinite(search.score())) {
     return std::nullopt;
@@ -163,7 +163,7 @@ std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const 
   if (other.score() > search.score()) {
     search = other;
   }
-  // Twice: a search that begins anew leaves valleys in which the first one crept.
+  // Twice: a restart leaves valleys in which the first search crept.
   search.improve(evaluations / 4);
   search.improve(evaluations / 4);
   return finished(search);

@@ -1,6 +1,6 @@
 // The shape of a tube around a tracker's curve: a proposal, by the periodic Lyapunov equation
 //   Pi(phi + omega) = A Pi A'/lambda + b B B' + c (dC/domega)(dC/domega)' + W,  U = Cholesky factor of Pi,
-// whose free parameters are chosen for what they are worth to third order at the curve (shape_bounds.hpp).
+// whose free parameters are chosen for their worth to third order at the curve (shape_bounds.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace veritrack::model {
 
-/// What a tube is for.
+/// The purpose of a tube.
 enum class ShapeObjective {
   largest_starts,
   largest_noise,
@@ -24,20 +24,20 @@ enum class ShapeObjective {
 struct ShapeSettings {
   ShapeObjective objective = ShapeObjective::largest_starts;
   /// For the largest starts: the deviations from the steady state that a start may have together, the sign of
-  /// each free, of which as large a multiple as possible shall be in the tube. Empty: the least of R |grad h
+  /// each free. As large a multiple of them as possible shall be in the tube. Empty: the least of R |grad h
   /// U| over the phase shall be large.
   Eigen::VectorXd start;
-  /// For the largest deviation: the logarithm of how rarely the tube is to be left.
+  /// For the largest deviation: the logarithm of the rarity with which the tube may be left.
   double exponent = 28.0;
   /// For the least error in the long run; both 0 mean a noise so small that second orders do not count.
   double noise = 0.0;  ///< of the samples together, Euclidean
   double slew = 0.0;   ///< rad/sample per sample
   int harmonics = 16;  ///< of the shape, at most
-  /// Of the tube of a filter whose covariance is bounded, rad/sample; 0: as large as can be.
+  /// For the tube of a filter whose covariance is bounded, rad/sample; 0: as large as possible.
   double largest_reach = 0.0;
-  /// The largest rate at other frequencies for which the parameters have to do: lambda is above its square.
+  /// The largest rate at other frequencies at which the parameters must work: lambda is above its square.
   double largest_rate = 0.0;
-  /// Of shapes in the search; 0 means 300, and 600 for more than 5 states.
+  /// Evaluations of shapes in the search; 0 means 300, and 600 for more than 5 states.
   int evaluations = 0;
   search::Deadline deadline = {};  ///< after which nothing better is searched for
 };
@@ -51,7 +51,7 @@ struct ShapeParameters {
   double unit_of_filter = 1.0;  ///< of its levels, rad/sample
 };
 
-/// What a shape is worth at the curve.
+/// The worth of a shape at the curve.
 struct ShapeWorth {
   double score = 0.0;      ///< of the objective: its logarithm, to be large
   double level = 0.0;      ///< R
@@ -72,7 +72,7 @@ struct ShapeProposal {
 /// b B B' + c (dC/domega)(dC/domega)' + W along the curve: n^2 x grid.size().
 [[nodiscard]] Eigen::MatrixXd lyapunov_source(const CurveDynamics& dynamics,
                                               const ShapeParameters& parameters);
-/// The shape of these parameters with its first harmonics, on the grid of the dynamics: nothing when there is
+/// The shape of these parameters with its first harmonics, on the grid of the dynamics: empty when there is
 /// none.
 [[nodiscard]] std::optional<ShapeOnGrid> shape_on_grid(const CurveDynamics& dynamics,
                                                        const ShapeParameters& parameters, int harmonics);
@@ -84,7 +84,7 @@ struct ShapeProposal {
 /// Shapes that are searched for have to be so with room to spare.
 [[nodiscard]] bool is_well_conditioned(const ShapeOnGrid& shape);
 
-/// Nothing when the shape is none somewhere.
+/// Empty when the shape is invalid somewhere.
 [[nodiscard]] std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnGrid& shape,
                                                  const DisturbanceWeights& weights,
                                                  const ShapeSettings& settings);

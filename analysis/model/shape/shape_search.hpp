@@ -13,8 +13,8 @@ namespace veritrack::model::detail {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Of W: the states themselves, or those of their covariance under the disturbance. Where states move
-/// together (delays), a diagonal W would be useless; where they do not (a filter's covariances), it is
+/// The axes of W: the states themselves, or those of their covariance under the disturbance. Where states
+/// move together (delays), a diagonal W would be useless; where they do not (a filter's covariances), it is
 /// better.
 enum class Axes { of_states, of_covariance };
 
@@ -87,7 +87,7 @@ class SearchCoordinates {
   void find_axes(const CurveDynamics& dynamics) {
     const int n = dynamics.cocycle.states();
     if (weights_.slew > 0.0) {
-      // In units of a slew that does as much as a noise of 1.
+      // In units of a slew that has the same effect as a noise of 1.
       const double noise = dynamics.noise_source.colwise().sum().cwiseAbs().maxCoeff();
       const double drift = dynamics.slew.colwise().squaredNorm().maxCoeff();
       weights_.slew = drift > 0.0 && noise > 0.0 ? noise / drift : 1.0;

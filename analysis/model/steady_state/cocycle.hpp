@@ -42,7 +42,7 @@ class Cocycle {
   int states_;
   double rate_ = 1.0;
   Eigen::MatrixXd jacobians_;
-  // Of m = 2^k samples: the products at phi + m omega, divided by exp(logarithms_[k]), and the shift by m
+  // For m = 2^k samples: the products at phi + m omega, divided by exp(logarithms_[k]), and the shift by m
   // omega.
   std::vector<Eigen::MatrixXd> later_;
   std::vector<double> logarithms_;

@@ -1,4 +1,4 @@
-// What a tracker does next to its curve, to third order, in floating point.
+// The dynamics of a tracker next to its curve, to third order, in floating point.
 #pragma once
 
 #include <Eigen/Core>

@@ -20,7 +20,7 @@ Eigen::VectorXd turns_of(const std::vector<int>& turns) {
 }
 
 /// The size of each state on the curve; an angle's is at least 1. A state that is 0 there up to rounding,
-/// such as a phase error, has the size that the others and the samples give it in a step.
+/// such as a phase error, has the size that it gets from the others and the samples in a step.
 Eigen::VectorXd sizes_on(const TrackedTone& tone, const NodeCurve& curve) {
   constexpr int kPhases = 12;
   constexpr double kNothing = 1e-9;
@@ -29,7 +29,7 @@ Eigen::VectorXd sizes_on(const TrackedTone& tone, const NodeCurve& curve) {
     auto& size = sizes[static_cast<Eigen::Index>(i)];
     size = curve.turns[i] != 0 ? std::max(size, 1.0) : size;
   }
-  // How much of a next value each state and the samples give at most.
+  // The largest contribution of each state and of the samples to a next value.
   const Eigen::Index n = sizes.size();
   Eigen::MatrixXd shares;
   for (int j = 0; j < kPhases; ++j) {
@@ -38,7 +38,7 @@ Eigen::VectorXd sizes_on(const TrackedTone& tone, const NodeCurve& curve) {
     const Eigen::MatrixXd jacobian = tone.step.jacobian(state_at(curve, phase), samples).cwiseAbs();
     shares = shares.size() == 0 ? jacobian : shares.cwiseMax(jacobian);
   }
-  // Such a state may be what gives another one its size: a delayed one.
+  // Another state, a delayed one, may get its size from such a state.
   for (Eigen::Index round = 0; round < n; ++round) {
     const Eigen::VectorXd given =
         shares.leftCols(n) * sizes + tone.amplitude * shares.rightCols(shares.cols() - n).rowwise().sum();
@@ -53,7 +53,7 @@ double largest(const Eigen::MatrixXd& residual, const Eigen::VectorXd& sizes) {
   return (sizes.cwiseInverse().asDiagonal() * residual.cwiseAbs()).maxCoeff();
 }
 
-/// As many harmonics, zeros added or the last ones left out.
+/// This number of harmonics: zeros added or the last ones left out.
 Eigen::MatrixXcd resized(const Eigen::MatrixXcd& harmonics, Eigen::Index columns) {
   Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(harmonics.rows(), columns);
   const Eigen::Index common = std::min(columns, harmonics.cols());
@@ -128,7 +128,7 @@ std::optional<NodeCurve> fit_curve_at(const TrackedTone& tone, double frequency,
       curve.harmonics = harmonics_of(settled.states, harmonics);
       continue;
     }
-    // The grid's own phases say nothing about those between them.
+    // The grid's own phases do not show the error between them.
     const double error = largest(residual_of(tone, curve, PhaseGrid(harmonics + 7)), sizes_on(tone, curve));
     curve.residual = error;
     if (std::isfinite(error) && (!best || error < best->residual)) {
@@ -187,7 +187,7 @@ Eigen::MatrixXcd CurveFit::slope_at(double z) const {
 
 namespace {
 
-/// Leaves out what is far below the last digits of a state, and harmonics that nothing is left of.
+/// Leaves out coefficients far below the last digits of a state, and harmonics that are then empty.
 void drop_small_harmonics(CurveFit& fit, const Eigen::VectorXd& sizes, double negligible) {
   Eigen::Index highest = 0;
   for (Eigen::MatrixXcd& coefficients : fit.coefficients) {
@@ -206,7 +206,7 @@ void drop_small_harmonics(CurveFit& fit, const Eigen::VectorXd& sizes, double ne
   }
 }
 
-/// To first order, how far the estimates on the curve are from those on the invariant curve at z.
+/// To first order, the distance of the estimates on the curve from those on the invariant curve at z.
 double frequency_error_at(const TrackedTone& tone, const CurveFit& fit, double z) {
   const NodeCurve curve = fit.at(z);
   const PhaseGrid grid(static_cast<int>(curve.harmonics.cols()) + 4);

@@ -1,6 +1,6 @@
 // The curve that a tracker follows in its steady state, over the phase and a cell of frequencies: a proposal.
 //
-// Simulated states begin it; Newton's method on C(phi + omega) = G(C(phi), Y(phi + omega)) on a grid of
+// It starts from simulated states; Newton's method on C(phi + omega) = G(C(phi), Y(phi + omega)) on a grid of
 // phases makes it as exact as doubles are. The linear equation of each step is solved by doubling
 // (cocycle.hpp).
 #pragma once
@@ -19,7 +19,7 @@ struct NodeCurve {
   double frequency = 0.0;  ///< rad/sample
   std::vector<int> turns;
   Eigen::MatrixXcd harmonics;  ///< n x (H + 1): C = turns phi + Re sum_h harmonics_h exp(i h phi)
-  /// Of G(C) - C between the phases of the grid, the largest for the size of its state.
+  /// The largest G(C) - C between the phases of the grid, relative to the size of its state.
   double residual = 0.0;
 };
 
@@ -32,13 +32,13 @@ struct NodeCurve {
 [[nodiscard]] Eigen::MatrixXd jacobians_along(const TrackedTone& tone, const NodeCurve& curve,
                                               const PhaseGrid& grid);
 
-/// Refines a settled simulation at `frequency`, with at most so many harmonics. Nothing when Newton's method
-/// does not converge.
+/// Refines a settled simulation at `frequency`, with at most `most_harmonics` harmonics. Empty when Newton's
+/// method does not converge.
 [[nodiscard]] std::optional<NodeCurve> fit_curve_at(const TrackedTone& tone, double frequency,
                                                     const SteadyState& settled, int most_harmonics = 128);
 
 inline constexpr int kNodes = 5;
-/// Of a curve that is to be known further.
+/// For a curve that must be known more accurately.
 inline constexpr int kFineNodes = 9;
 
 /// z of the nodes: Chebyshev's points in (-1, 1), the middle one 0.
@@ -53,8 +53,8 @@ struct CurveFit {
   std::vector<int> turns;
   std::vector<Eigen::MatrixXcd> coefficients;  ///< of z^d, from d = 0: n x (H + 1) each
   std::vector<NodeCurve> nodes;
-  /// An estimate of how far estimated frequencies on the curve are from those on the true one, rad/sample, at
-  /// worst over z in [-1, 1].
+  /// An estimate of the distance of estimated frequencies on the curve from those on the true one,
+  /// rad/sample, at worst over z in [-1, 1].
   double frequency_error = 0.0;
 
   /// The curve at frequency + z half_width, and its derivative by omega there.
@@ -63,8 +63,8 @@ struct CurveFit {
 };
 
 /// Fits the cell from a settled simulation at its middle. Coefficients below `negligible` of the size of
-/// their state are left out. `nodes`: an odd number of frequencies, one more than the degree in z. Nothing
-/// when some node has no curve. Throws std::invalid_argument for a half width <= 0 and for another number of
+/// their state are left out. `nodes`: an odd number of frequencies, one more than the degree in z. Empty when
+/// some node has no curve. Throws std::invalid_argument for a half width <= 0 and for another number of
 /// nodes.
 [[nodiscard]] std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, double half_width,
                                                 const SteadyState& settled, double negligible = 1e-13,

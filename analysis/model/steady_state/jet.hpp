@@ -1,5 +1,5 @@
-// Jets: the Taylor coefficients of a function of one variable, in double, up to an order K. Run over jets, a
-// program gives its derivatives in one direction. For proposals: nothing here is rounded outward.
+// Jets: the Taylor coefficients of a function of one variable, in double, up to an order K. A program that
+// runs over jets gives its derivatives in one direction. For proposals: nothing here is rounded outward.
 #pragma once
 
 #include <array>

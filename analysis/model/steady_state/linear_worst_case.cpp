@@ -13,7 +13,7 @@ namespace veritrack::model {
 
 namespace {
 
-/// After so many samples errors that shrink by `rate` a sample are e^-12 of themselves.
+/// The number of samples after which errors that shrink by `rate` a sample are e^-12 of themselves.
 int samples_to_forget(double rate) {
   constexpr double kLogarithm = 12.0;
   constexpr double kMostSamples = 60000.0;
@@ -22,8 +22,8 @@ int samples_to_forget(double rate) {
   return static_cast<int>(std::clamp(samples, kFewSamples, kMostSamples));
 }
 
-/// An orbit on the curve of a steady state: what its steps do with deviations. Sample k is at the phase
-/// `first` + k omega.
+/// An orbit on the curve of a steady state, with the effect of its steps on deviations. Sample k is at the
+/// phase `first` + k omega.
 class Orbit {
  public:
   Orbit(const TrackedTone& tone, const NodeCurve& curve, const NodeCurve& beside, double first, int samples)
@@ -41,7 +41,7 @@ class Orbit {
     }
   }
 
-  /// Adds up what `memory` samples before sample `last` do to its estimate.
+  /// Adds up the effects of `memory` samples before sample `last` on its estimate.
   void judge(int last, int memory, double noise, double slew, LinearWorstCase& worst) const {
     const Eigen::VectorXd state = state_at(*curve_, phase(last));
     const double error = std::fabs(tone_->step.frequency(state) - curve_->frequency);
@@ -65,7 +65,7 @@ class Orbit {
   double first_;
   std::vector<Eigen::MatrixXd> states_, inputs_;  // of the step to sample k at k - 1
   std::vector<Eigen::VectorXd> slopes_;
-  std::vector<Eigen::VectorXd> of_amplitude_;  // what another amplitude of the sample does
+  std::vector<Eigen::VectorXd> of_amplitude_;  // the effect of another amplitude of the sample
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ struct Fraction {
   int samples = 1;
 };
 
-/// The fraction next to a frequency in (0, pi), rad/sample, where neither number has a factor that a short
+/// The fraction next to a frequency in (0, pi), rad/sample. Neither of its numbers has a factor that a short
 /// repetition would share.
 [[nodiscard]] Fraction nearby_fraction(double frequency);
 
@@ -30,7 +30,7 @@ class PeriodicRun {
   [[nodiscard]] const Eigen::MatrixXd& states() const { return states_; }
   [[nodiscard]] const Eigen::MatrixXd& samples() const { return samples_; }
   [[nodiscard]] double mean_frequency() const { return mean_frequency_; }
-  /// The state after it, angles wrapped, and how many turns were taken off so far.
+  /// The state after it, angles wrapped, and the number of turns removed so far.
   [[nodiscard]] const Eigen::VectorXd& wrapped() const { return state_; }
   [[nodiscard]] const Eigen::VectorXd& wound() const { return wound_; }
 
@@ -43,7 +43,7 @@ class PeriodicRun {
   double mean_frequency_ = 0.0;
 };
 
-/// The states of the last period in the order of their phases, less turns times the phase.
+/// The states of the last period in the order of their phases, minus turns times the phase.
 [[nodiscard]] Eigen::MatrixXd sorted_states(const PeriodicRun& run, const Fraction& fraction,
                                             const std::vector<int>& turns);
 
@@ -52,9 +52,9 @@ class History {
  public:
   void add(const PeriodicRun& run);
   [[nodiscard]] bool reaches(int periods) const { return static_cast<int>(ends_.size()) > periods; }
-  /// The change over so many last periods, angles modulo 2 pi.
+  /// The change over the last `periods` periods, angles modulo 2 pi.
   [[nodiscard]] Eigen::VectorXd change(int periods, const std::vector<bool>& is_angle) const;
-  /// The turns of each angle over so many last periods, once it returns.
+  /// The turns of each angle over the last `periods` periods, once it returns.
   [[nodiscard]] Eigen::VectorXd turns(int periods) const;
 
  private:

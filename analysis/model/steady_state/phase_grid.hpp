@@ -9,7 +9,7 @@ namespace veritrack::model {
 /// (components) x size().
 class PhaseGrid {
  public:
-  /// Of 2 harmonics + 1 phases.
+  /// A grid of 2 harmonics + 1 phases.
   explicit PhaseGrid(int harmonics) : harmonics_(harmonics) {}
 
   [[nodiscard]] int harmonics() const { return harmonics_; }

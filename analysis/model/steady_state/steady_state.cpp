@@ -63,14 +63,14 @@ bool is_small(const Eigen::VectorXd& change, const Eigen::VectorXd& size) {
   return (change.cwiseAbs().array() <= kReturned * size.array()).all();
 }
 
-/// Whether a state that returns is where it stays: what it moves in all periods to come, should it settle by
-/// the rate of the last one, is little for its size now. A covariance that decays like 1/N returns when it is
-/// compared with where it began, but half of it is still to come.
+/// Whether a state that returns also stays there: its movement in all periods to come, if it settles by the
+/// rate of the last one, is small for its size now. A covariance that decays like 1/N returns compared with
+/// its start, but half of its decay is still to come.
 bool is_at_rest(const SteadyState& result, const Eigen::VectorXd& size_now,
                 const Eigen::VectorXd& first_size) {
   constexpr double kLittle = 1e-3;
   constexpr double kRounding = 1e-12;
-  constexpr double kNothing = 1e-14;  // a state that is 0 but for rounding
+  constexpr double kNothing = 1e-14;  // a state that is 0 apart from rounding
   const double left = 1.0 - std::pow(result.rate, result.period);
   return (result.drift.cwiseAbs().array() <=
           kLittle * left *
@@ -78,7 +78,7 @@ bool is_at_rest(const SteadyState& result, const Eigen::VectorXd& size_now,
       .all();
 }
 
-/// The tone's words for the operation that was the first to be undefined, in the last period; or nothing.
+/// The tone's words for the first operation that was undefined in the last period; or empty.
 std::string objection_of(const TrackedTone& tone, const PeriodicRun& run) {
   const trackers::StraightLineProgram& step = tone.step.recursion().step;
   for (Eigen::Index k = 0; k < run.samples().cols(); ++k) {
@@ -112,15 +112,15 @@ double error_from_amplitude(const TrackedTone& tone) {
 
 namespace {
 
-/// How a simulation ends.
+/// The end of a simulation.
 struct Settling {
   Eigen::VectorXd size;     ///< of the states
-  bool returns = false;     ///< after a period, up to what it drifts
+  bool returns = false;     ///< after a period, apart from its drift
   bool is_resting = false;  ///< and does not change any more
 };
 
-/// Runs until nothing changes, at most as long as the settings say; nothing when it diverges, as the result
-/// then says.
+/// Runs until nothing changes, at most as long as the settings allow; empty when it diverges, as the result
+/// then states.
 std::optional<Settling> settle(const TrackedTone& tone, const SteadyStateSettings& settings, PeriodicRun& run,
                                History& history, SteadyState& result) {
   constexpr double kHuge = 1e9;
@@ -173,7 +173,7 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
   result.asked_frequency = frequency;
   result.frequency = 2.0 * std::numbers::pi * fraction.turns / fraction.samples;
   result.period = fraction.samples;
-  // Of the tone that is simulated: a slow loop does not lock to another one in any number of samples.
+  // Start at the tone that is simulated: a slow loop does not lock to another one in any number of samples.
   const std::vector<double> start = tone.start(result.frequency);
   const auto& is_angle = tone.step.recursion().is_angle;
   if (static_cast<int>(start.size()) != tone.step.states() || is_angle.size() != start.size()) {
@@ -206,7 +206,7 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
       return result;
     }
   }
-  // On the way to a steady state errors may grow, which says nothing of those that are there.
+  // Errors may grow on the way to a steady state; that does not show whether they grow in it.
   const bool is_unstable = !(result.rate <= 1.0 - resolved) && (returns || result.rate <= 1.0 + resolved);
   if (is_unstable && result.rate > 0.0) {
     result.outcome = SteadyStateOutcome::not_exponentially_stable;

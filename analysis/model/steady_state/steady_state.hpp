@@ -1,5 +1,5 @@
-// Where a tracker settles on a tone, by simulation: a proposal, with the numbers for a message when it does
-// not settle as it should.
+// The steady state of a tracker on a tone, by simulation: a proposal, with the numbers for a message when it
+// does not settle as it should.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace veritrack::model {
 
-/// The state at phase 0 from which the user would have the simulation begin, for a frequency in rad/sample.
+/// The state at phase 0 from which the user lets the simulation begin, for a frequency in rad/sample.
 using StartState = std::function<std::vector<double>(double frequency)>;
 
 /// A tracker on its signal.
@@ -23,15 +23,15 @@ struct TrackedTone {
   double amplitude = 1.0;
   StartState start;
   std::vector<std::string> names = {};  ///< of the states, for messages; or empty
-  /// Of a filter, of which tubes are to bound the covariance; or none.
+  /// For a filter whose covariance tubes are to bound; otherwise none.
   const trackers::FilterParts* filter = nullptr;
-  /// What it means that an operation of the step is undefined, one for each: for messages; or empty.
+  /// The meaning of an undefined operation of the step, one for each: for messages; or empty.
   std::vector<std::string> objections = {};
-  /// How far amplitudes of samples may be from this one, where they vary.
+  /// The distance of the samples' amplitudes from this one, at most, where they vary.
   double amplitude_deviation = 0.0;
 };
 
-/// About the largest error of a sample from the amplitudes, of all channels together.
+/// Approximately the largest error of a sample from the amplitudes, all channels together.
 [[nodiscard]] double error_from_amplitude(const TrackedTone& tone);
 
 enum class SteadyStateOutcome {
@@ -43,9 +43,9 @@ enum class SteadyStateOutcome {
   /// It returns after `repetition` turns of the phase only (2, 3, ...), or jumps to and fro from one sample
   /// to the next.
   repeats_later,
-  /// The mean of the estimated frequency is off by `mean_error`: more than was allowed.
+  /// The mean of the estimated frequency is biased by `mean_error`: more than was allowed.
   locked_elsewhere,
-  /// Errors grow by `rate` a sample, 1 up to what the simulation can tell; `mode` says in which states.
+  /// Errors grow by `rate` a sample, 1 within the accuracy of the simulation; `mode` shows in which states.
   not_exponentially_stable
 };
 
@@ -73,7 +73,7 @@ struct SteadyState {
   /// size; its largest entry is 1. Empty when unknown.
   Eigen::VectorXd mode;
   std::vector<int> turns;  ///< of each state while the phase turns once
-  /// n x q when settled: the states at phases 2 pi j/q, less turns times the phase.
+  /// n x q when settled: the states at phases 2 pi j/q, minus turns times the phase.
   Eigen::MatrixXd states;
   /// When it diverges because an operation of the step is undefined: the tone's words for it; or empty.
   std::string undefined = {};

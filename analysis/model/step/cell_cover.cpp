@@ -28,7 +28,7 @@ bool is_power_of_two(int n) {
   return n > 0 && (n & (n - 1)) == 0;
 }
 
-/// What one part of the first grid came to.
+/// The result of one part of the first grid.
 struct PartResult {
   bool is_proved = false;
   std::size_t cells = 0;
@@ -125,10 +125,10 @@ class Cover {
     return (*ask_)({cell.turn, 0.0, cell.z, 0.0}).is_proved;
   }
 
-  /// Parts of a turn that are as wide as all frequencies, about.
+  /// Approximately the parts of a turn that are as wide as all frequencies.
   static constexpr double kPhasesAsWide = 48.0;
 
-  /// Where halving does not help any more: a part is one in a million in each direction.
+  /// The limit of halving: a part is one in a million in each direction.
   [[nodiscard]] static bool is_tiny(const TubeCell& cell) {
     return cell.half_turn < 0x1p-26 || cell.half_z < 0x1p-20;
   }
@@ -136,7 +136,7 @@ class Cover {
   [[nodiscard]] static std::array<TubeCell, 2> halves_of(const TubeCell& cell, const CellAnswer& answer) {
     TubeCell first = cell;
     TubeCell second = cell;
-    // A guess. Where nothing is known of what varies, both directions take their turns.
+    // A guess. Where the better direction is unknown, both take turns.
     const double sum = answer.by_frequency + answer.by_phase;
     const bool is_known = std::isfinite(sum) && sum > 0.0;
     const bool by_frequency =

@@ -10,7 +10,7 @@
 
 namespace veritrack::model {
 
-/// How much work a verification may take.
+/// The work that a verification may take.
 struct VerificationBudget {
   int phases = 32;      ///< parts of a turn to begin with: a power of two
   int frequencies = 1;  ///< parts of the frequencies to begin with: a power of two
@@ -18,17 +18,17 @@ struct VerificationBudget {
   search::Deadline deadline = {};  ///< after which nothing more is proved
 };
 
-/// What is known of a cell.
+/// The finding on a cell.
 struct CellAnswer {
   bool is_proved = false;
-  rigor::Interval range;  ///< what shall be known of the whole: the hull is taken
-  /// How much of the bound comes from the width of the cell in phase, and in frequency: which to halve. Not
-  /// evidence.
+  rigor::Interval range;  ///< contributes to the range of the whole: the hull is taken
+  /// The shares of the bound from the width of the cell in phase, and in frequency: they show which to halve.
+  /// Not evidence.
   double by_phase = 0.0;
   double by_frequency = 0.0;
 };
 
-/// What is known of all cells.
+/// The finding on all cells.
 struct CoverResult {
   bool is_proved = false;  ///< in every cell of a cover of a turn and z in [-1, 1]
   std::size_t cells = 0;   ///< that were needed
@@ -42,7 +42,7 @@ struct CoverResult {
 [[nodiscard]] CoverResult cover_cells(const std::function<CellAnswer(const TubeCell&)>& ask,
                                       const VerificationBudget& budget);
 
-/// Whether the first grid of the budget is one.
+/// Whether the first grid of the budget is valid.
 [[nodiscard]] bool is_grid(const VerificationBudget& budget);
 
 }  // namespace veritrack::model

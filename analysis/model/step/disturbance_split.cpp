@@ -23,15 +23,15 @@ double logistic(double logit) {
 /// Splits are searched in their logits, which reach both ends: slow trackers need t close to 1.
 constexpr double kFarthestLogit = 20.0;
 
-/// Where a function of the logit with one valley is least, and its value there.
+/// The place where a function of the logit with one valley is least, and its value there.
 template <typename Function>
 search::GoldenPoint lowest_of(const Function& value, int steps = 22) {
   return search::golden_section(-kFarthestLogit, kFarthestLogit, steps, value);
 }
 
-/// Shares t for which the largest eigenvalue of sum A_i/t_i is least, up to one in a million; nothing when
-/// they are not found soon. For the eigenvector p of that eigenvalue, (sum sqrt(p'A_i p))^2 is at most what
-/// any shares give, and shares in proportion to these roots reach it along p.
+/// Shares t for which the largest eigenvalue of sum A_i/t_i is least, up to one in a million; empty when they
+/// are not found soon. For the eigenvector p of that eigenvalue, (sum sqrt(p'A_i p))^2 is at most the value
+/// for any shares, and shares in proportion to these roots reach it along p.
 template <std::size_t kParts>
 std::optional<std::array<double, kParts>> soon_found(
     const std::array<const Eigen::MatrixXd*, kParts>& parts) {
@@ -103,7 +103,7 @@ std::array<double, 3> proposed_shares(const Eigen::MatrixXd& x, const Eigen::Mat
   if (const auto shares = soon_found<3>({&x, &v, &w})) {
     return *shares;
   }
-  // Convex in (t1, t2): what is least over t2 is convex in t1.
+  // Convex in (t1, t2): the minimum over t2 is convex in t1.
   const auto of_others = [&](double logit_of_x) {
     const double t = logistic(logit_of_x);
     const double rest = logistic(-logit_of_x);

@@ -1,4 +1,4 @@
-// How a bound on a sum of vectors is best split among them: proposals in floating point. Any split is valid.
+// The best split of a bound on a sum of vectors among them: proposals in floating point. Any split is valid.
 #pragma once
 
 #include <Eigen/Core>

@@ -72,7 +72,7 @@ double largest_eigenvalue(const EnclosedMatrix& matrix) {
   if (!std::isfinite(size) || !std::isfinite(matrix.error)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  // Exactly symmetric, so that what is verified is what is meant.
+  // Exactly symmetric, so that the verified matrix is the intended one.
   const Eigen::MatrixXd symmetric = matrix.middle.selfadjointView<Eigen::Lower>();
   const double asymmetry = frobenius(symmetric - matrix.middle) + kUnit * size;
   const double proposal = rigor::largest_eigenvalue(symmetric);

@@ -1,4 +1,4 @@
-// Products of matrices of doubles with bounds of what rounding adds, and verified bounds of eigenvalues.
+// Products of matrices of doubles with bounds on rounding errors, and verified bounds of eigenvalues.
 #pragma once
 
 #include <Eigen/Core>

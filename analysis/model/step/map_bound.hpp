@@ -1,4 +1,4 @@
-// How long a vector of ball models can be.
+// Bounds on the length of a vector of ball models.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ namespace veritrack::model {
 [[nodiscard]] std::vector<double> length_bounds(const std::vector<rigor::BallModel>& vector,
                                                 const std::vector<double>& scales, bool last_alone = false);
 
-/// How much of a vector changes with s, and how much with z: sums of norms. Not evidence.
+/// The parts of a vector that change with s, and with z: sums of norms. Not evidence.
 struct WidthShares {
   double by_phase = 0.0;
   double by_frequency = 0.0;

@@ -1,4 +1,4 @@
-// What is computed once for a cell of a tube and used again for every radius and noise.
+// Quantities that are computed once for a cell of a tube and used again for every radius and noise.
 #pragma once
 
 #include <array>
@@ -14,19 +14,19 @@
 
 namespace veritrack::model {
 
-/// Keeps what depends on the place in a cell only, for one tracker and one tube, up to a number of cells: the
-/// first ones that are asked for. A search verifies the same cells again and again, for other radii, noises
-/// and levels. What is kept is what would be computed again, so that results do not depend on it. Used by
-/// several threads.
+/// Keeps the quantities that depend on the place in a cell only, for one tracker and one tube, up to a number
+/// of cells: the first ones that are requested. A search verifies the same cells repeatedly, for other radii,
+/// noises and levels. Kept values equal those that would be computed again, so that results do not depend on
+/// the store. Used by several threads.
 class PlaceStore {
  public:
   /// The model must not change as long as this exists. `most`: cells.
   PlaceStore(const TrackerModel& model, Tube tube, std::size_t most)
       : model_(&model), tube_(std::move(tube)), most_(most) {}
 
-  /// What is known of a cell, by `make()` unless it is kept. `variant`: a number on which that depends, too,
-  /// the slew, or which parts there are; it depends on nothing else. Of another model, of a tube that is not
-  /// equal to the one here, and of numbers that are none, nothing is kept and nothing is found.
+  /// The quantities of a cell, by `make()` unless they are kept. `variant`: a number on which they also
+  /// depend, the slew or the parts to compute; they depend on nothing else. For another model, for a tube
+  /// that is not equal to the one here, and for numbers that are NaN, nothing is kept and nothing is found.
   template <typename Value, typename Make>
   [[nodiscard]] std::shared_ptr<const Value> at(const TrackerModel& model, const Tube& tube,
                                                 const TubeCell& cell, double variant, const Make& make) {
@@ -65,9 +65,9 @@ class PlaceStore {
   std::map<Key, std::shared_ptr<const void>> kept_;
 };
 
-/// As many places of a tube as take about `bytes`.
+/// The number of places of a tube that take about `bytes`.
 [[nodiscard]] inline std::size_t places_in(const Tube& tube, double bytes) {
-  // Of the tube at both phases, and the matrices of a filter (filter_step.cpp).
+  // The tube at both phases, and the matrices of a filter (filter_step.cpp).
   constexpr double kBytesOfModel = 300.0;
   constexpr double kMatrices = 8.0;
   const auto states = static_cast<double>(tube.curve.size());

@@ -15,16 +15,16 @@ namespace veritrack::model {
 struct PointFrame {
   Eigen::VectorXd curve;
   Eigen::MatrixXd shape;  ///< lower triangular
-  /// Of a tube that bounds a covariance: the middle of the bounds of the predicted one; otherwise without
+  /// For a tube that bounds a covariance: the middle of the bounds of the predicted one; otherwise without
   /// rows.
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd spread;  ///< and half of their difference
 
-  /// Of a filter with such a tube: the estimate alone.
+  /// For a filter with such a tube: the estimate alone.
   [[nodiscard]] Eigen::VectorXd state(const Eigen::VectorXd& coordinates) const {
     return curve + shape * coordinates;
   }
-  /// xi with state = C + U xi. Of a filter, the covariance is left aside.
+  /// xi with state = C + U xi. For a filter, the covariance is left aside.
   [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& state) const;
 };
 
@@ -63,8 +63,9 @@ class PointTracker {
   [[nodiscard]] Eigen::VectorXd samples(double phase);
   /// At an amplitude of the range: 0 is the least, 1 the largest.
   [[nodiscard]] Eigen::VectorXd samples(double phase, double place);
-  /// The state at these coordinates; of a filter with a tube that bounds the covariance, with the covariance
-  /// that the middle of its bounds leads to, or this one `between` them: symmetric, of a norm of at most 1.
+  /// The state at these coordinates; for a filter with a tube that bounds the covariance, with the covariance
+  /// that follows from the middle of its bounds, or from this one `between` them: symmetric, of a norm of at
+  /// most 1.
   [[nodiscard]] Eigen::VectorXd state(const PointFrame& frame, const Eigen::VectorXd& coordinates,
                                       const Eigen::MatrixXd& between = {});
   /// The next state.

@@ -46,7 +46,7 @@ struct Tube {
   std::vector<int> turns;   ///< how often a state turns while the phase turns once: 0 unless it is an angle
   std::vector<PhaseSeries> curve;  ///< one for each state
   std::vector<PhaseSeries> shape;  ///< the lower triangle of U, row by row
-  /// Of an extended Kalman filter, whose curve and shape are those of the estimate alone: lower and upper
+  /// For an extended Kalman filter, whose curve and shape are those of the estimate alone: lower and upper
   /// bounds, in the order of symmetric matrices, of the covariance that is predicted for the sample at phi;
   /// lower triangles, row by row. Otherwise empty (docs/model-proof.md, section 13).
   std::vector<PhaseSeries> covariance_low, covariance_high;

@@ -47,8 +47,8 @@ std::size_t most_powers(const Tube& tube) {
 /// cos and sin of h phi.
 using Harmonics = std::vector<std::pair<BallModel, BallModel>>;
 
-/// All from the powers of what varies in the phase: cos(h (c + u)) = sum_{k <= 4} f^(k)(h c)/k! (h u)^k +
-/// f^(5)(t)/5! (h u)^5.
+/// All from the powers of the varying part u of the phase: cos(h (c + u)) = sum_{k <= 4} f^(k)(h c)/k! (h
+/// u)^k + f^(5)(t)/5! (h u)^5.
 Harmonics harmonics_at(const BallModel& phase, std::size_t count) {
   const Interval range = phase.range();
   Harmonics harmonics;

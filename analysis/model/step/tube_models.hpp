@@ -30,8 +30,8 @@ struct CellPlace {
 
 [[nodiscard]] TubeHere tube_at(const Tube& tube, const rigor::BallModel& phase, const rigor::BallModel& z);
 
-/// What depends on the place in a cell only: computed among polynomials of two variables, and then lifted to
-/// those of the scope.
+/// The quantities that depend on the place in a cell only: computed among polynomials of two variables, and
+/// then lifted to those of the scope.
 struct CellFrame {
   rigor::BallModel phase;              ///< rad
   rigor::BallModel z;                  ///< place in the band of the tube
@@ -49,7 +49,7 @@ struct CellFrame {
                                                           const std::vector<rigor::BallModel>& samples,
                                                           double noise, double stretch);
 
-/// Which of them: not `there` and not `next`; not `there`; all.
+/// The parts to compute: all but `there` and `next`; all but `there`; all.
 enum class FrameParts { here, with_samples, with_next };
 /// `store`: of this model and tube, or none.
 [[nodiscard]] CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
@@ -78,7 +78,7 @@ enum class FrameParts { here, with_samples, with_next };
                                                 const trackers::StraightLineProgram& program,
                                                 const std::vector<rigor::BallModel>& inputs);
 
-/// The estimated frequency at a state, rad/sample. Of a filter, the covariance is not known.
+/// The estimated frequency at a state, rad/sample. For a filter, the covariance is unknown.
 [[nodiscard]] rigor::BallModel frequency_of(const TrackerModel& model, std::vector<rigor::BallModel> state);
 
 /// Throws std::invalid_argument when sizes do not fit.

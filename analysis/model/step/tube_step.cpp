@@ -27,7 +27,7 @@ StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& 
   CellFrame frame =
       frame_of(model, tube, cell, is_moving ? FrameParts::with_samples : FrameParts::with_next, store);
   if (is_moving) {
-    // Rounded up: more slew than is asked for.
+    // Rounded up: more slew than requested.
     const int last = is_disturbed(model, noise) ? model.recursion->samples : 0;
     frame.there =
         tube_at(tube, frame.next_phase,
@@ -45,7 +45,7 @@ StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& 
   StepOver step;
   step.deviation = in_units_of(frame.there, next);
   const std::vector<BallModel> frequency = run(model, model.recursion->frequency, state);
-  // The shape must be one: no component of it vanishes, here or there.
+  // The shape must be valid: no component of it vanishes, here or there.
   step.is_known = is_shape(frame.here) && is_shape(frame.there);
   step.frequency_error = step.is_known ? (frequency.front() - frame.frequency).range() : Interval::empty();
   return step;

@@ -26,7 +26,7 @@ struct TrackerModel {
   std::vector<rigor::Interval> constants;
   rigor::Interval amplitude;      ///< of each sample
   bool amplitude_varies = false;  ///< from sample to sample, in that range; otherwise it is constant
-  /// Of an extended Kalman filter that can be taken to its parts: for tubes that bound the covariance.
+  /// The parts of an extended Kalman filter, if it can be decomposed: for tubes that bound the covariance.
   const trackers::FilterParts* filter = nullptr;
 };
 
@@ -43,13 +43,12 @@ struct TubeCell {
 
 /// Bounds over a cell.
 struct StepBounds {
-  /// Of |F| for |xi| <= scale radius, one for each scale that was asked for; not finite when nothing is
-  /// known.
+  /// Bounds of |F| for |xi| <= scale radius, one for each requested scale; not finite when nothing is known.
   std::vector<double> steps;
-  /// Of h(C + U xi) - omega, |xi| <= radius, rad/sample; empty when nothing is known.
+  /// Contains h(C + U xi) - omega, |xi| <= radius, rad/sample; empty when nothing is known.
   rigor::Interval frequency_error;
-  /// How much of the first bound comes from the width of the cell in phase, and in frequency: which to halve.
-  /// Not evidence.
+  /// The shares of the first bound from the width of the cell in phase, and in frequency: they show which to
+  /// halve. Not evidence.
   double by_phase = 0.0;
   double by_frequency = 0.0;
 };
@@ -60,11 +59,11 @@ struct StepBounds {
 }
 
 /// F over a cell, as ball models in xi/radius and the disturbances: v/noise, and then zeta. Where the
-/// amplitude varies, v is the noise together with what that does to the samples.
+/// amplitude varies, v is the noise together with its effect on the samples.
 struct StepOver {
   std::vector<rigor::BallModel> deviation;  ///< F
   rigor::Interval frequency_error;          ///< of h(C + U xi) - omega; empty when nothing is known
-  bool is_known = false;                    ///< the shape is one, here and there
+  bool is_known = false;                    ///< the shape is valid, here and there
 };
 
 /// For |xi| <= radius, |v| <= noise stretch and a slew up to slew stretch. Needs the upward rounding mode,

@@ -11,8 +11,8 @@
 
 namespace veritrack::model {
 
-/// The number of the instruction from which it comes that a result or limit of the program is not known, or
-/// -1 when all are known: its operands are. `registers` are those of a run.
+/// The number of the instruction that makes a result or limit of the program unknown although its operands
+/// are known, or -1 when all are known. `registers` are those of a run.
 template <typename Scalar, typename IsKnown>
 [[nodiscard]] int first_unknown(const trackers::StraightLineProgram& program,
                                 const std::vector<Scalar>& registers, const IsKnown& is_known) {
@@ -38,15 +38,15 @@ template <typename Scalar, typename IsKnown>
   return -1;
 }
 
-/// Where a step may be undefined in a tube.
+/// The operation of a step that may be undefined in a tube.
 struct UndefinedOperation {
   int instruction = -1;  ///< of the step
-  /// The largest radius that was tried for which bounds at points know every operation; 0: none.
+  /// The largest radius that was tried for which bounds at points define every operation; 0: none.
   double defined_radius = 0.0;
 };
 
-/// By bounds over the ball at some phases of the middle frequency of the tube; nothing when they know every
-/// operation. `noise`: |v| is at most this, signal units. Not of tubes that bound a covariance.
+/// Uses bounds over the ball at some phases of the middle frequency of the tube; empty when they define every
+/// operation. `noise`: |v| is at most this, signal units. Not for tubes that bound a covariance.
 [[nodiscard]] std::optional<UndefinedOperation> find_undefined(const TrackerModel& model, const Tube& tube,
                                                                double radius, double noise);
 

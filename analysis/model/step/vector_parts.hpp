@@ -1,4 +1,4 @@
-// What a vector of ball models is made of: its linear parts and bounds of the others.
+// The parts of a vector of ball models: its linear parts and bounds of the others.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ namespace veritrack::model {
 /// P(s, z) P(s, z)' for a matrix P of polynomials in s and z, by exponents of s and z.
 using Gram = std::map<std::pair<int, int>, EnclosedMatrix>;
 
-/// A Gram matrix, and what it is multiplied by.
+/// A Gram matrix, and its factor.
 struct WeightedGram {
   const Gram* gram = nullptr;
   rigor::Interval factor;

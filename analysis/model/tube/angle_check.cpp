@@ -13,8 +13,8 @@ using trackers::Instruction;
 using trackers::Operation;
 using trackers::StraightLineProgram;
 
-/// By how many turns a value changes for a turn of each input: a whole number each; none where the change is
-/// not a whole number of turns of the inputs.
+/// The number of turns by which a value changes for a turn of each input: a whole number each; empty where
+/// the change is not a whole number of turns of the inputs.
 using Turns = std::optional<std::vector<long>>;
 
 /// The whole number that the interval is exactly.
@@ -105,7 +105,7 @@ std::vector<Turns> still_inputs(int inputs, std::size_t count) {
   return std::vector<Turns>(static_cast<std::size_t>(inputs), std::vector<long>(count, 0));
 }
 
-/// From a register that depends on whole turns back to where it began.
+/// Traces a register that depends on whole turns back to its origin.
 int origin_of(const StraightLineProgram& program, const std::vector<Turns>& registers, int place) {
   for (;;) {
     if (place < program.inputs() || registers[static_cast<std::size_t>(place)]) {

@@ -10,10 +10,10 @@
 
 namespace veritrack::model {
 
-/// What is not the same after a whole turn; empty when everything is. Checked by the form of the program: an
-/// angle, or a sum of whole multiples of angles, may stand in sin, cos and tan and in the next value of an
-/// angle, which must turn as the angle does; nothing else may depend on whole turns, nor the frequency.
-/// `constants` are the values of the constants, among which whole multiples are found.
+/// The value that is not the same after a whole turn; empty when every one is. Checked by the form of the
+/// program: an angle, or a sum of whole multiples of angles, may stand in sin, cos and tan and in the next
+/// value of an angle, which must turn as the angle does; nothing else may depend on whole turns, nor may the
+/// frequency. `constants` are the values of the constants, among which whole multiples are found.
 [[nodiscard]] std::string angle_objection(const trackers::Recursion& recursion,
                                           const std::vector<rigor::Interval>& constants);
 
@@ -22,7 +22,7 @@ struct TurnObjection {
   int state = -1;  ///< whose next value it is; -1: the frequency
   int place = -1;  ///< the register of the program in which it depends on whole turns for the first time
 };
-/// Nothing when everything is the same. The sizes must fit.
+/// Empty when everything is the same. The sizes must fit.
 [[nodiscard]] std::optional<TurnObjection> find_turn_objection(const trackers::Recursion& recursion,
                                                                const std::vector<rigor::Interval>& constants);
 

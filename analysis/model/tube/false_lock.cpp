@@ -88,7 +88,7 @@ Degree periodic_in(const Degree& a, bool has_poles) {
   return result;
 }
 
-/// Of all registers. Inputs: constants, then `variables` of which degrees are counted, then others.
+/// The degrees of all registers. Inputs: constants, then `variables`, whose degrees are counted, then others.
 std::vector<Degree> degrees_of(const StraightLineProgram& program, const std::vector<Interval>& constants,
                                std::size_t variables) {
   Degree nothing;
@@ -98,7 +98,7 @@ std::vector<Degree> degrees_of(const StraightLineProgram& program, const std::ve
     registers[constants.size() + i].multiples[i] = 1;
     registers[constants.size() + i].numerator = 1;
   }
-  // The whole number that a constant is; 1 of others.
+  // The whole number that a constant is; 1 for others.
   const auto whole = [&](int place) {
     const auto number = static_cast<std::size_t>(place);
     if (number >= constants.size() || constants[number].lower() != constants[number].upper()) {

@@ -1,5 +1,5 @@
-// How near another lock may be: a frequency that the tracker may settle at instead of the true one, as far as
-// its formulas and the signal's tell (docs/model-proof.md, section 18).
+// How near a false lock may be: a frequency at which the tracker may settle instead of the true one, as far
+// as its formulas and the signal's show (docs/model-proof.md, section 18).
 #pragma once
 
 #include "analysis/model/step/tube_step.hpp"
@@ -8,9 +8,8 @@
 namespace veritrack::model {
 
 /// Less than the frequency error, rad/sample, from which a state may be nearer to a false lock than to the
-/// true one, for all frequencies of the band (rad/sample). Of a filter with as much to spare as an
-/// independent program may need, which counts the degrees of derivatives otherwise. Needs the upward rounding
-/// mode.
+/// true one, for all frequencies of the band (rad/sample). For a filter, with the slack that an independent
+/// program may need because it counts the degrees of derivatives differently. Needs the upward rounding mode.
 [[nodiscard]] double half_distance_to_false_lock(const TrackerModel& model, const rigor::Interval& band);
 
 }  // namespace veritrack::model

@@ -113,7 +113,7 @@ BandProposal propose_band(const TrackedTone& tone, double low, double high, cons
     }
     TubeProposal middle = propose_tube(tone, 0.5 * (low + high), half_width, tube);
     if (middle.outcome == TubeOutcome::proposed && tone.filter != nullptr) {
-      // Those of the place where tubes are smallest.
+      // The parameters of the place where tubes are smallest.
       const TubeProposal at_middle = middle;
       for (const double place : {low + half_width, high - half_width}) {
         TubeProposal end = propose_tube(tone, place, half_width, tube, at_middle.shape.parameters);

@@ -18,8 +18,9 @@ struct BandSettings {
   /// fit together, for a frequency that moves.
   bool one_shape = false;
   search::Deadline deadline = {};  ///< cells that are tried later are not proposed: `time_limit`
-  /// Told each cell when it is proposed, or is not, so that it can be proved before the next one is tried.
-  /// Where `may_be_halved`, the answer false has the cell halved: it is as if it had not been proposed.
+  /// Called with each cell when it is proposed, or is not, so that it can be proved before the next one is
+  /// tried. Where `may_be_halved`, the answer false makes the search halve the cell, as if it had not been
+  /// proposed.
   std::function<bool(TubeProposal& cell, bool may_be_halved)> decided = {};
 };
 
@@ -31,10 +32,9 @@ struct BandProposal {
   bool is_complete = false;  ///< all cells are proposed, and there is one
 };
 
-/// Halves cells until each has a tube or is too narrow to be divided. What is too narrow grows with the
-/// distance from the last tube, so that a part of the band without tubes is passed in a few steps.
-/// Deterministic up to the deadline; holds round-to-nearest. Throws std::invalid_argument unless
-/// 0 < low < high < pi.
+/// Halves cells until each has a tube or is too narrow to be divided. This limit grows with the distance from
+/// the last tube, so that a part of the band without tubes is passed in a few steps. Deterministic up to the
+/// deadline; holds round-to-nearest. Throws std::invalid_argument unless 0 < low < high < pi.
 [[nodiscard]] BandProposal propose_band(const TrackedTone& tone, double low, double high,
                                         const BandSettings& settings);
 

@@ -14,7 +14,7 @@ namespace veritrack::model {
 
 namespace {
 
-/// A number with so many significant digits.
+/// A number with `count` significant digits.
 std::string digits(double value, int count) {
   const rigor::NearestRounding nearest;
   std::ostringstream text;
@@ -44,7 +44,7 @@ std::string states_in(const SteadyState& steady) {
   return text;
 }
 
-/// What else there is to say of a state that does not stop: that it turns, or how long it would take.
+/// A further remark on a state that does not stop: that it turns, or how long it would take.
 std::string hint_to_drift(const SteadyState& steady) {
   const double turned = steady.frequency * steady.period;  // of the phase, rad
   const double ratio = steady.drift[steady.slowest_state] / turned;
@@ -65,7 +65,7 @@ std::string hint_to_drift(const SteadyState& steady) {
   return "";
 }
 
-/// What a tracker that settles on another frequency has locked to.
+/// The frequency to which a tracker that settles elsewhere has locked.
 std::string lock_of(const SteadyState& steady) {
   constexpr double kClose = 2e-3;
   constexpr int kMost = 16;
@@ -82,7 +82,7 @@ std::string lock_of(const SteadyState& steady) {
                                          : "it has locked to something else";
 }
 
-/// Of errors that do not grow, but do not decay by a factor a sample, either.
+/// For errors that do not grow, but do not decay by a factor a sample either.
 std::string decay_of(const SteadyState& steady) {
   return steady.rate < 1.0 ? ", which is 1 as far as " + std::to_string(steady.samples) +
                                  " samples can tell: if errors decay, it is not exponentially"

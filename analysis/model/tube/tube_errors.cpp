@@ -40,7 +40,7 @@ void require_grid(const ErrorGrid& grid) {
   }
 }
 
-/// The tube without the bounds of a covariance, which say nothing of errors.
+/// The tube without the bounds of a covariance, which do not concern errors.
 Tube of_estimate(const Tube& tube) {
   Tube estimate = tube;
   estimate.covariance_low.clear();
@@ -48,7 +48,7 @@ Tube of_estimate(const Tube& tube) {
   return estimate;
 }
 
-/// Calls `work` for each cell, in any order; each in the upward rounding mode, with ball models of so many
+/// Calls `work` for each cell, in any order; each in the upward rounding mode, with ball models of this many
 /// variables.
 template <typename Work>
 void for_each_cell(const TrackerModel& model, const Tube& tube, const ErrorGrid& grid, const Work& work) {
@@ -69,7 +69,7 @@ std::size_t cells_of(const ErrorGrid& grid) {
 /// Powers of z from z^1 on, and as many.
 constexpr std::size_t kPowers = 4;
 
-/// What is known of h - omega in a cell.
+/// The bounds on h - omega in a cell.
 struct CellErrors {
   Interval error = Interval::empty();
   BallModel::MeanInZ mean;
@@ -78,7 +78,7 @@ struct CellErrors {
   std::array<double, kPowers> in_z{};
 };
 
-/// Takes apart what depends on z alone, whose coefficients are exact numbers.
+/// Separates the part that depends on z alone, whose coefficients are exact numbers.
 void split_in_z(const BallModel& error, CellErrors& cell) {
   BallModel rest = error;
   BallModel power(1.0);
@@ -92,7 +92,7 @@ void split_in_z(const BallModel& error, CellErrors& cell) {
   cell.rest = rest.range();
 }
 
-/// About the mean of a row's errors as a polynomial in z; any numbers will do.
+/// Approximately the mean of a row's errors as a polynomial in z; any numbers are valid.
 std::array<double, kPowers> common_of(std::span<const CellErrors> row) {
   std::array<double, kPowers> common{};
   for (const CellErrors& cell : row) {
@@ -103,7 +103,7 @@ std::array<double, kPowers> common_of(std::span<const CellErrors> row) {
   return common;
 }
 
-/// Contains h - omega less what all phases of a row have in common. Empty when nothing is known.
+/// Contains h - omega minus the common part of all phases of a row. Empty when nothing is known.
 Interval without(const std::array<double, kPowers>& common, const CellErrors& cell) {
   Interval here = cell.rest;
   for (std::size_t d = 0; d < kPowers; ++d) {
@@ -114,7 +114,7 @@ Interval without(const std::array<double, kPowers>& common, const CellErrors& ce
   return rigor::is_finite(here) ? here : Interval::empty();
 }
 
-/// What is known of the parts of the cell at this place of a row; empty where it is not divided.
+/// The bounds on the parts of the cell at this place of a row; empty where it is not divided.
 using PartsOfCell = std::function<std::vector<CellErrors>(std::size_t place)>;
 
 /// Contains the same in a cell, by its parts where there are any.
@@ -131,7 +131,7 @@ Interval without(const std::array<double, kPowers>& common, const std::vector<Ce
   return all.value_or(whole);
 }
 
-/// At each frequency of a row of cells, the largest h - omega less the smallest: at most this.
+/// At each frequency of a row of cells, the largest h - omega minus the smallest is at most this.
 double ripple_of(std::span<const CellErrors> row, const PartsOfCell& parts_of) {
   const std::array<double, kPowers> common = common_of(row);
   std::vector<Interval> ranges;
@@ -195,8 +195,8 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
   const auto phases = static_cast<std::size_t>(grid.phases);
   for (std::size_t first = 0; first < cells.size(); first += phases) {
     Interval range = cells[first].error;
-    // The phases of a row see the same z, so that what a frequency adds at one phase and takes away at
-    // another cancels.
+    // The phases of a row see the same z, so that contributions of a frequency with opposite signs at
+    // different phases cancel.
     BallModel::MeanInZ sum;
     sum.powers.fill(Interval(0.0));
     for (std::size_t number = first; number < first + phases; ++number) {
@@ -228,7 +228,7 @@ double bound_reach(const TrackerModel& model, const Tube& tube, double radius, c
   require_grid(grid);
   std::vector<double> reaches(cells_of(grid), 0.0);
   for_each_cell(model, tube, grid, [&](std::size_t number, const CellFrame& frame) {
-    // The direction in which the error grows most at the middle of the cell; any would do.
+    // The direction in which the error grows most at the middle of the cell; any is valid.
     const BallModel error = frequency_error(model, frame, state_in(frame.here, radius));
     const rigor::BallMonomials::Class& linear =
         error.monomials().classes()[error.monomials().class_of(1, 0, 0, 0)];

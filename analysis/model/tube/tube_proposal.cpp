@@ -139,8 +139,8 @@ void make_worse(ShapeWorth& worth, const ShapeWorth& other) {
   worth.start_share = std::min(worth.start_share, other.start_share);
 }
 
-/// Compares the tube with the exact shapes of its parameters between the nodes. False when it is none at some
-/// frequency of the cell.
+/// Compares the tube with the exact shapes of its parameters between the nodes. False when it is invalid at
+/// some frequency of the cell.
 [[nodiscard]] bool judge(const TrackedTone& tone, const CurveFit& curve, const ShapeFit& fit,
                          const PhaseGrid& grid, const TubeSettings& settings, TubeProposal& proposal) {
   const ShapeParameters& parameters = proposal.shape.parameters;
@@ -166,7 +166,7 @@ void make_worse(ShapeWorth& worth, const ShapeWorth& other) {
     highest = std::max(highest, worth->score);
     make_worse(proposal.worth, *worth);
     proposal.variation = 1.0 - std::exp(proposal.worth.score - highest);
-    // Of a set for disturbances, the level of the middle is the guess; of the others the one that fits all.
+    // For a set for disturbances the guess is the level of the middle; for the others the one that fits all.
     if (settings.shape.objective == ShapeObjective::largest_starts) {
       proposal.worth.level = std::min(proposal.worth.level, worth->level);
     } else if (is_long_run) {
@@ -188,7 +188,7 @@ TubeProposal propose(const TrackedTone& tone, double frequency, double half_widt
   if (proposal.steady_state.outcome != SteadyStateOutcome::settled) {
     return proposal;
   }
-  // What is left out of the curve adds up over 1/(1 - rate) samples.
+  // The omitted part of the curve adds up over 1/(1 - rate) samples.
   constexpr double kShare = 1e-3;
   const double negligible =
       std::max(1e-15, kShare * settings.largest_curve_error * (1.0 - proposal.steady_state.rate));
@@ -257,7 +257,7 @@ TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half
                           bool keep) {
   const rigor::NearestRounding nearest;
   TubeProposal proposal = propose(tone, frequency, half_width, settings, nearby, keep);
-  // What was not found in the time that there was says nothing of the tracker.
+  // A search that ran out of time proves nothing about the tracker.
   if (proposal.outcome != TubeOutcome::proposed &&
       (settings.shape.deadline.is_over() || settings.steady_state.deadline.is_over())) {
     proposal.outcome = TubeOutcome::time_limit;

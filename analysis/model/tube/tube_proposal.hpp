@@ -19,7 +19,7 @@ namespace veritrack::model {
 
 inline constexpr const char* kTimeLimit = "stopped by the time limit";
 
-/// What failed, in words and numbers, for a message; empty when nothing did.
+/// The failure in words and numbers, for a message; empty when nothing failed.
 [[nodiscard]] std::string reason_of(const SteadyState& steady_state);
 [[nodiscard]] std::string reason_of(const TubeProposal& proposal);
 

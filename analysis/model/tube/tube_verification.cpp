@@ -22,7 +22,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-/// Whether all bounds are at most what is asked of them. A comparison with NaN is false.
+/// Whether all bounds are at most the requested ones. A comparison with NaN is false.
 bool holds(const StepBounds& bounds, const LevelQuestion& question, const std::vector<double>& scales) {
   if (bounds.steps.size() != scales.size() || scales.empty() || rigor::is_empty(bounds.frequency_error)) {
     return false;
@@ -192,7 +192,7 @@ std::optional<VerificationBudget> coarsest_grid(const TrackerModel& model, const
     }
     const double by_phase = growth_with(2, 1);
     const double by_frequency = growth_with(1, 2);
-    // Where nothing is known yet, both take their turns.
+    // While nothing is known, both take turns.
     constexpr int kPhasesAsWide = 32;
     const bool is_known = std::isfinite(by_phase) || std::isfinite(by_frequency);
     const bool divides_frequencies =

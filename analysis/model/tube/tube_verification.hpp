@@ -12,7 +12,7 @@
 
 namespace veritrack::model {
 
-/// What is asked of a radius.
+/// A question about a radius.
 struct LevelQuestion {
   double radius = 0.0;  ///< R
   double noise = 0.0;   ///< V: |v| <= V, signal units
@@ -22,10 +22,10 @@ struct LevelQuestion {
   double shrinking = 1.0;
   /// W: from one sample to the next the frequency moves by at most this, rad/sample.
   double slew = 0.0;
-  /// Of a filter: that the bounds of the covariance are kept is shown, too. It is enough to do so for the
+  /// For a filter: also show that the bounds of the covariance are kept. It is enough to do so for the
   /// largest radius.
   bool with_covariance = true;
-  /// Then they have this share of themselves to spare at every step.
+  /// They must then leave this share of themselves at every step.
   double covariance_margin = 0.0;
 };
 
@@ -44,20 +44,20 @@ struct LevelResult {
 /// |xi| <= scale R is convex in the scale, because coefficients of degree a are multiplied by scale^a and the
 /// error is kept: two ends decide.) Cells that fail are halved, up to the budget; the result does not depend
 /// on the number of threads. UNDECIDED, with the reason, when the recursion does not know its angles modulo 2
-/// pi only, when the signal is not 2 pi-periodic in its phase, and when nothing is known somewhere. `store`:
-/// of this model and tube, or none.
+/// pi only, when the signal is not 2 pi-periodic in its phase, and when a bound is missing somewhere.
+/// `store`: of this model and tube, or none.
 [[nodiscard]] LevelResult verify_level(const TrackerModel& model, const Tube& tube,
                                        const LevelQuestion& question, const VerificationBudget& budget,
                                        PlaceStore* store = nullptr);
 
-/// Why statements over phases from 0 to 2 pi say nothing of all of them; empty when they do.
+/// The reason why statements over phases from 0 to 2 pi do not cover all phases; empty when they do.
 [[nodiscard]] std::string objection_to_phases(const TrackerModel& model, const Tube& tube);
 
 /// "at phases about 0.25 of a turn and frequencies about 0.3 rad/sample".
 [[nodiscard]] std::string place_of_failure(const Tube& tube, const TubeCell& cell);
 
-/// The largest |F|/R at points of the tube, by the bounds of verify_level over cells without width, at so
-/// many phases: what a verification could prove at best for this radius, noise and slew. Not evidence;
+/// The largest |F|/R at points of the tube, by the bounds of verify_level over cells without width, at this
+/// many phases: the best that a verification could prove for this radius, noise and slew. Not evidence;
 /// infinity when nothing is known somewhere.
 [[nodiscard]] double sampled_growth(const TrackerModel& model, const Tube& tube,
                                     const LevelQuestion& question, int phases);
@@ -66,15 +66,15 @@ struct LevelResult {
 [[nodiscard]] bool may_shrink(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
                               int phases, double most, PlaceStore* store = nullptr);
 
-/// About the largest |F| over scale radius, at the radius and at its least scale, in the cells of a grid: of
-/// some of them. For proposals; proves nothing. Infinity when nothing is known.
+/// Approximately the largest |F| over scale radius, at the radius and at its least scale, in some of the
+/// cells of a grid. For proposals; proves nothing. Infinity when nothing is known.
 [[nodiscard]] double growth_on_grid(const TrackerModel& model, const Tube& tube,
                                     const LevelQuestion& question, const VerificationBudget& grid,
                                     PlaceStore* store = nullptr);
 
-/// The coarsest grid of at most `most` cells, from `grid` on, in whose cells a step shrinks as asked, as far
-/// as some of them tell; nothing where it has to be finer, and after the deadline of the grid. A verification
-/// that begins too coarse costs three times as much. For proposals; proves nothing.
+/// The coarsest grid of at most `most` cells, from `grid` on, in whose cells a step shrinks as asked, judged
+/// by some of them; empty where it has to be finer, and after the deadline of the grid. A verification that
+/// begins too coarse costs three times as much. For proposals; proves nothing.
 [[nodiscard]] std::optional<VerificationBudget> coarsest_grid(const TrackerModel& model, const Tube& tube,
                                                               const LevelQuestion& question,
                                                               VerificationBudget grid, int most,

@@ -140,15 +140,15 @@ class Compiler {
   CompiledProgram result_;
 };
 
-/// What has to be shown, whether or not anything needs it.
+/// The limits that have to be shown, whether or not anything needs them.
 bool is_limit(const Definition& definition) {
   const Expression& value = definition.value;
   const auto function = value.kind == Expression::Kind::call ? find_function(value.text) : std::nullopt;
   return function && function->operation == Operation::stays_within;
 }
 
-/// Throws LanguageError for a line, no limit, that neither a next value nor a limit needs: nothing would be
-/// known of its operations.
+/// Throws LanguageError for a line, not itself a limit, that neither a next value nor a limit needs: nothing
+/// would be known about its operations.
 void require_needed(const std::vector<const Definition*>& ordered) {
   std::set<std::string> needed;
   for (auto line = ordered.rbegin(); line != ordered.rend(); ++line) {

@@ -17,7 +17,7 @@ struct CompiledProgram {
   trackers::StraightLineProgram program{0};
   std::vector<Position> positions;   ///< one for each instruction
   std::map<int, std::string> names;  ///< of registers that a definition has given a name to
-  /// The registers of names, also of those that came second: one register may have several.
+  /// The registers of all names, including later ones for the same register: one register may have several.
   std::map<std::string, int> places;
 };
 
@@ -33,7 +33,7 @@ struct CompiledProgram {
                                            const Constants& constants, const std::vector<std::string>& states,
                                            const std::vector<std::string>& samples, Position place_of_step);
 
-/// Throws LanguageError unless the name can be given to something: it is no function and means nothing else.
+/// Throws LanguageError unless the name is free: it is not a function and has no other meaning.
 void require_free_name(std::string_view name, Position position);
 
 }  // namespace veritrack::certificates::language

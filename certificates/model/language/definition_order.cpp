@@ -58,7 +58,7 @@ std::vector<const Definition*> in_order(const std::vector<Definition>& definitio
   if (ordered.size() == definitions.size()) {
     return ordered;
   }
-  // From any definition that is left, what it needs leads into the circle.
+  // The definitions needed by any remaining definition lead into the circle.
   std::size_t at = 0;
   while (needs[at].empty()) {
     ++at;

@@ -1,4 +1,4 @@
-// Formulas as a user writes them: trees whose nodes know where they stand.
+// Formulas as a user writes them: trees whose nodes record their place in the file.
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 namespace veritrack::certificates::language {
 
-/// Thrown for a formula that cannot be used: what() says what is wrong and what is allowed.
+/// Thrown for a formula that cannot be used: what() states the fault and what is allowed.
 class LanguageError : public std::runtime_error {
  public:
   LanguageError(Position position, const std::string& message)
@@ -51,7 +51,7 @@ void for_each_leaf(const Expression& expression, const Visit& visit) {
   }
 }
 
-/// The formula that the text is. Parentheses may be 64 deep. Throws LanguageError.
+/// The text as a formula. Parentheses may be 64 deep. Throws LanguageError.
 [[nodiscard]] Expression parse_expression(const SourceText& source);
 
 /// The definitions, one on each line; a line may be empty, or end with a comment that begins with #. A line

@@ -41,7 +41,7 @@ struct function : word {};
 struct comma : one<','> {};
 struct close : one<')'> {};
 struct open_call : one<'('> {};
-/// Looks ahead, so that no action is applied to a name that turns out to be no function.
+/// Looks ahead, so that no action is applied to a name that turns out not to be a function.
 struct starts_a_call : at<word, spaces<false>, one<'('>> {};
 struct call : if_must<starts_a_call, function, spaces<false>, open_call, spaces<true>, argument, spaces<true>,
                       star<if_must<comma, spaces<true>, argument, spaces<true>>>, close> {};
@@ -86,7 +86,7 @@ struct whole_step : must<star<any_space>, star<definition, star<any_space>>, no_
 
 namespace {
 
-/// What was expected where a rule failed.
+/// The expected text where a rule failed.
 template <typename Rule>
 inline constexpr std::string_view kAllowed = "a number, a name, a function, a minus sign or (";
 template <>
@@ -106,9 +106,9 @@ inline constexpr std::string_view kAllowed<tao::pegtl::eof> = "an operator, or t
 
 constexpr int kDeepest = 1000;           // operations one inside the other
 constexpr int kDeepestNesting = 64;      // open parentheses and minus signs before them
-constexpr std::size_t kShownLimit = 30;  // bytes of what was found instead
+constexpr std::size_t kShownLimit = 30;  // bytes of the text found instead
 
-/// What the parser has built so far.
+/// The parts that the parser has built so far.
 struct Building {
   Position start;  ///< of the text
   std::vector<Expression> operands;
@@ -262,7 +262,7 @@ struct Action<grammar::value> {
   static void apply0(Building& building) { building.definitions.back().value = building.pop(); }
 };
 
-/// What stands there, for a message.
+/// The text there, for a message.
 std::string found_at(std::string_view rest) {
   if (rest.empty()) {
     return "the text ends";
@@ -295,7 +295,7 @@ std::string_view advice_on_conditions(std::string_view before, std::string_view 
              : std::string_view();
 }
 
-/// A rule that must match and does not is the reader's to mend.
+/// The author of the text must repair a rule that must match and does not.
 template <typename Rule>
 struct Control : tao::pegtl::normal<Rule> {
   template <typename Input>

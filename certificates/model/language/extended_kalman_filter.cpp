@@ -281,7 +281,7 @@ std::vector<Differentiated> prediction_of(ProgramBuilder& builder, const FilterM
                                           const std::vector<Differentiated>& estimates, Position place) {
   std::vector<Differentiated> predicted = builder.run(
       compile_step(model.predict, constants, model.states, {}, place), with_derivatives(estimates));
-  // A given F carries the covariance, and nothing is asked of it there.
+  // A given F propagates the covariance; nothing is required of it there.
   for (std::size_t i = 0; i < model.jacobian.size(); ++i) {
     for (std::size_t j = 0; j < estimates.size(); ++j) {
       predicted[i].derivatives[j] =

@@ -15,7 +15,7 @@ struct FilterModel {
   std::vector<std::string> states;
   std::vector<Definition> predict;  ///< the next value of each state
   std::vector<Expression> measure;  ///< one for each sample
-  /// F = df/dx in formulas of the states, where it is not the derivative of `predict`; else empty.
+  /// F = df/dx in formulas of the states, where it is not the derivative of `predict`; otherwise empty.
   std::vector<std::vector<Expression>> jacobian;
   std::vector<std::vector<Expression>> process_noise;      ///< Q: as many rows and columns as states
   std::vector<std::vector<Expression>> measurement_noise;  ///< R: as many rows and columns as samples
@@ -41,7 +41,7 @@ struct FilterModel {
 [[nodiscard]] bool depends_on_inputs(const trackers::StraightLineProgram& program, int input,
                                      std::size_t first, std::size_t last);
 
-/// The same filter by its parts. Nothing unless the measurement is linear: entries of H that depend on the
+/// The same filter by its parts. Empty unless the measurement is linear: entries of H that depend on the
 /// state would make the updated covariance depend on it in another way. F may be given.
 [[nodiscard]] std::optional<trackers::FilterParts> compile_filter_parts(
     const FilterModel& model, const Constants& constants, const std::vector<std::string>& samples,

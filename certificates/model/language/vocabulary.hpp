@@ -17,13 +17,13 @@ struct Function {
   int arguments;
 };
 
-/// The function of that name; none if there is none.
+/// The function of that name; empty if there is none.
 [[nodiscard]] std::optional<Function> find_function(std::string_view name);
 
-/// What to say about a function that formulas may not use: what is wrong with it, and what to write.
+/// The message about a function that formulas may not use: the fault, and what to write instead.
 [[nodiscard]] std::string objection_to_function(std::string_view name);
 
-/// What a name means whatever else is defined: "the circle constant"; empty for a name that is free.
+/// The fixed meaning of a name: "the circle constant"; empty for a name that is free.
 [[nodiscard]] std::string_view reserved_meaning(std::string_view name);
 
 }  // namespace veritrack::certificates::language

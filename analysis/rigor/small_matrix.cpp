@@ -66,7 +66,7 @@ SmallMatrix stacked(const MatrixView& a, const MatrixView& b) {
   return both;
 }
 
-SmallMatrix inverse(const MatrixView& a) {
+SmallMatrix approximate_inverse(const MatrixView& a) {
   return small(a).inverse();
 }
 

@@ -27,7 +27,7 @@ using MatrixView = Eigen::Ref<const Eigen::MatrixXd>;
 /// A above B.
 [[nodiscard]] SmallMatrix stacked(const MatrixView& a, const MatrixView& b);
 
-[[nodiscard]] SmallMatrix inverse(const MatrixView& a);
+[[nodiscard]] SmallMatrix approximate_inverse(const MatrixView& a);
 /// The solution of S X = B, S symmetric.
 [[nodiscard]] SmallMatrix symmetric_solution(const MatrixView& s, const MatrixView& b);
 

@@ -35,7 +35,7 @@ FilterNumbers::FilterNumbers(const TrackedTone& tone)
   measured_ = matrix_of_rows(values.measured.data(), c, n);
   process_ = matrix_of_rows(values.process.data(), n, n);
   noise_ = matrix_of_rows(values.noise.data(), c, c);
-  weighted_ = rigor::product(rigor::inverse(noise_), measured_);
+  weighted_ = rigor::product(rigor::approximate_inverse(noise_), measured_);
 }
 
 SmallMatrix FilterNumbers::jacobian(const SmallVector& estimate) {

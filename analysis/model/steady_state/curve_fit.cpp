@@ -163,7 +163,7 @@ const Eigen::Matrix<double, kNodes, kNodes>& node_weights() {
         powers(j, d) = std::pow(node_places()[static_cast<std::size_t>(j)], d);
       }
     }
-    return Eigen::Matrix<double, kNodes, kNodes>(rigor::inverse(powers));
+    return Eigen::Matrix<double, kNodes, kNodes>(rigor::approximate_inverse(powers));
   }();
   return weights;
 }
@@ -249,7 +249,7 @@ std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, dou
     columns = std::max(columns, node->harmonics.cols());
     fit.nodes.push_back(std::move(*node));
   }
-  const rigor::SmallMatrix weights = rigor::inverse(powers);
+  const rigor::SmallMatrix weights = rigor::approximate_inverse(powers);
   for (int d = 0; d < nodes; ++d) {
     Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(tone.step.states(), columns);
     for (int j = 0; j < nodes; ++j) {

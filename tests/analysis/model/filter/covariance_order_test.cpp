@@ -14,11 +14,6 @@ namespace {
 
 using rigor::BallModel;
 
-/// c + a s + b z.
-BallModel place_model(double c, double a, double b) {
-  return BallModel(c) + BallModel(a) * BallModel::s() + BallModel(b) * BallModel::z();
-}
-
 Eigen::MatrixXd random_matrix(test::Random& random, Eigen::Index n, double size) {
   return Eigen::MatrixXd::NullaryExpr(n, n, [&] { return random.uniform(-size, size); });
 }
@@ -37,21 +32,6 @@ double least_eigenvalue(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .minCoeff();
-}
-
-TEST_CASE("a matrix over a cell is definite only where it is at all places") {
-  const rigor::BallModelScope scope(0, 0);
-  // [2 + a s, 1; 1, 2 + b z], with eigenvalues of 1 and 3 in the middle.
-  const auto matrix = [](double a, double b, double error) {
-    return symmetric({place_model(2.0, a, 0.0), BallModel(1.0), place_model(2.0, 0.0, b).widened(error)});
-  };
-  CHECK(is_positive_definite(matrix(0.0, 0.0, 0.0)));
-  CHECK(is_positive_definite(matrix(0.4, 0.4, 0.0)));
-  CHECK_FALSE(is_positive_definite(matrix(1.6, 0.0, 0.0)));
-  CHECK_FALSE(is_positive_definite(matrix(0.0, 0.0, 1.6)));
-  CHECK_FALSE(is_positive_definite(matrix(0.0, 0.0, std::numeric_limits<double>::quiet_NaN())));
-  CHECK_FALSE(is_positive_definite(symmetric({BallModel(1.0), BallModel(1.0), BallModel(1.0)})));
-  CHECK_FALSE(is_positive_definite(symmetric({BallModel(-1.0)})));
 }
 
 TEST_CASE("what is shown of F P F' holds for random xi") {

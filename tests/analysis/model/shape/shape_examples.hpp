@@ -35,7 +35,8 @@ inline model::CurveDynamics scalar_dynamics(double a, double b, double bend, dou
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(2, 2);
   hessian(0, 0) = bend;
   model::CurveDynamics dynamics =
-      constant_dynamics(Eigen::MatrixXd::Constant(1, 1, a), Eigen::MatrixXd::Constant(1, 1, b), {hessian});
+      constant_dynamics(Eigen::MatrixXd::Constant(1, 1, a), Eigen::MatrixXd::Constant(1, 1, b),
+                        std::vector<Eigen::MatrixXd>(1, hessian));
   dynamics.slew.setConstant(drift);
   return dynamics;
 }

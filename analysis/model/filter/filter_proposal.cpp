@@ -118,7 +118,9 @@ class FilterGrids {
   /// Their loss between the nodes, in units of the admissible loss.
   [[nodiscard]] double loss_of(const FilterFits& fits, double scale) const {
     double worst = 0.0;
-    for (const auto& [z, exact] : judges_) {
+    for (const auto& judge : judges_) {  // clang 14 captures no structured binding
+      const double z = judge.first;
+      const FilterOnGrid& exact = judge.second;
       for (Index j = 0; j < exact.low.cols(); ++j) {
         const double phase =
             2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(exact.low.cols());

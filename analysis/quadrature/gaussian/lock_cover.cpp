@@ -90,7 +90,7 @@ bool has_mirror_image(const trackers::ToneModel<Interval>& design, const LockSet
 std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const CellLook& look,
                                            const CoverLimits& limits) {
   constexpr int kDepth = 40;
-  constexpr std::int64_t kMostCells = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
   const std::vector<LevelCell> grid = grid_of(set, half);
   if (!covers_set(grid, set, half)) {
     return std::nullopt;
@@ -113,7 +113,7 @@ std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const 
       const CellDrift found = look(part.cell);
       return {found.holds, halves_of(part, found)};
     };
-    if (!search::cover_by_bisection(Part{grid[k], kDepth}, kMostCells, look_at).is_proved ||
+    if (!search::cover_by_bisection(Part{grid[k], kDepth}, kUnlimited, look_at).is_proved ||
         (cells += looked) > limits.cells) {
       failed = true;
     }

@@ -101,14 +101,14 @@ Estimate turned(const HeldStates& box, const Factors& f, const Turn& turn, doubl
 }  // namespace
 
 StateDifference step_rounding(const Program& program, const HeldStates& box, const Pieces& pieces) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
   rigor::require_upward_rounding();
   const bool in_range = certainly_less_equal(Interval(Rounded::kSmallestUnit), program.amplitude) &&
                         certainly_less_equal(program.amplitude, Interval(Rounded::kLargestUnit));
   // cannot bind (box.lower(2, 2)): regressions are quotients by every variance up to upper(2, 2), which is
   // positive: where zero is among them nothing is finite.
   if (!in_range || !certainly_positive(box.lower(2, 2))) {
-    return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
+    return {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   }
   const trackers::ToneModel<Rounded> design{Rounded(program.design.q1), Rounded(program.design.q2),
                                             Rounded(program.design.r), Rounded(program.design.epsilon)};

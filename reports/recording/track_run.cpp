@@ -197,11 +197,11 @@ class Run {
 }  // namespace
 
 std::size_t lock_window(double lowest, bool by_periods) {
-  constexpr double kLeast = 64.0;
+  constexpr double kLeastSamples = 64.0;
   constexpr double kMost = 65536.0;
   constexpr double kUnknown = 4096.0;
   const double periods = lowest > 0.0 ? std::ceil(4.0 * std::numbers::pi / lowest) : kUnknown;
-  return static_cast<std::size_t>(by_periods ? std::clamp(periods, kLeast, kMost) : kLeast);
+  return static_cast<std::size_t>(by_periods ? std::clamp(periods, kLeastSamples, kMost) : kLeastSamples);
 }
 
 NisFindings::Verdict verdict_on(const NisFindings& nis, int channels) {

@@ -96,7 +96,7 @@ void SampleTable::fail() const {
 }
 
 void SampleTable::add(const TrackedSample& sample) {
-  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  constexpr std::size_t kBytesKept = std::size_t{1} << 16;
   fmt::format_to(std::back_inserter(text_), "{}", sample.index);
   if (sample_rate_) {
     add_cell(text_, static_cast<double>(sample.index) / *sample_rate_);
@@ -116,7 +116,7 @@ void SampleTable::add(const TrackedSample& sample) {
   text_ += ',';
   text_ += name_of(sample.state);
   text_ += "\r\n";
-  if (text_.size() >= kBlock) {
+  if (text_.size() >= kBytesKept) {
     flush();
   }
 }

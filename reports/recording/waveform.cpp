@@ -65,14 +65,14 @@ MatchedTone Waveform::match(std::span<const std::complex<double>> means) const {
     const double phase = std::arg(std::conj(harmonics_.front().value) * means.front());
     return {score(phase) / power_, phase};
   }
-  constexpr int kPlaces = 128;
+  constexpr int kPhases = 128;
   double best = 0.0;
-  for (int i = 1; i < kPlaces; ++i) {
-    const double phase = kWholeTurn * i / kPlaces;
+  for (int i = 1; i < kPhases; ++i) {
+    const double phase = kWholeTurn * i / kPhases;
     best = score(phase) > score(best) ? phase : best;
   }
-  double low = best - kWholeTurn / kPlaces;
-  double high = best + kWholeTurn / kPlaces;
+  double low = best - kWholeTurn / kPhases;
+  double high = best + kWholeTurn / kPhases;
   for (int i = 0; i < 40; ++i) {
     const double first = low + (high - low) / 3.0;
     const double second = high - (high - low) / 3.0;

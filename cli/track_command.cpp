@@ -169,7 +169,7 @@ certificates::TrackerOnSamples tracker_of(const certificates::Design& design, co
   }
 }
 
-/// In lock all along, and no tested assumption is violated.
+/// Whether the tracker stays in lock once it is, and the recording violates no tested assumption.
 bool is_fine(const reports::TrackReport& report) {
   const reports::TrackResult& result = report.result;
   return !result.blocks.empty() ? reports::blocks_are_in_lock(result)

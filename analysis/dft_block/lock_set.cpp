@@ -231,7 +231,7 @@ bool LockFrame::verify_cells(double radius, std::int64_t most_cells,
   if (!rigor::is_finite(whole) || !rigor::certainly_positive(problem_.amplitude)) {
     return false;
   }
-  const auto look = [&](const Cell& cell) -> search::CellLook<Cell> {
+  const auto look = [&](const Cell& cell) -> search::CellDecision<Cell> {
     if (is_outside(cell, radius) || is_verified(cell)) {
       return {true};
     }

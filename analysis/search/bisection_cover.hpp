@@ -11,7 +11,7 @@ namespace veritrack::search {
 
 /// What was seen of a cell.
 template <typename Cell>
-struct CellLook {
+struct CellDecision {
   bool holds = false;                             ///< the statement, on the whole cell
   std::optional<std::array<Cell, 2>> parts = {};  ///< whose union is the cell; none: the cover ends here
 };
@@ -24,7 +24,8 @@ struct BisectionCover {
 };
 
 /// Looks at `whole` and at parts of it, depth first and the first part before the second, at most so many
-/// cells. `look(cell)`, a CellLook, is called once a cell; a proof rests on nothing but its answers.
+/// cells. `look(cell)`, a CellDecision, is called once for each cell; a proof rests on nothing but its
+/// answers.
 template <typename Cell, typename Look>
 [[nodiscard]] BisectionCover<Cell> cover_by_bisection(const Cell& whole, std::int64_t most_cells,
                                                       const Look& look) {
@@ -38,7 +39,7 @@ template <typename Cell, typename Look>
       return cover;
     }
     ++cover.cells;
-    CellLook<Cell> seen = look(cell);
+    CellDecision<Cell> seen = look(cell);
     if (seen.holds) {
       continue;
     }

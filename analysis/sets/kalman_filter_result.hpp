@@ -1,4 +1,5 @@
-// The result of a contraction certificate, for every kind of tracker.
+// The result of a contraction certificate: of the two extended Kalman filters, the quadrature tracker's and
+// the single-channel one's.
 #pragma once
 
 #include <optional>

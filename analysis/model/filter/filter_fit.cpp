@@ -68,24 +68,29 @@ VectorXd value_of(const PhaseFit& fit, double z, double phase) {
   return value_at(harmonics, phase);
 }
 
+PhaseSeries series_of(std::span<const MatrixXcd> coefficients, Index row) {
+  PhaseSeries series;
+  series.coefficients.resize(static_cast<std::size_t>(coefficients[0].cols()));
+  for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
+    auto& powers = series.coefficients[h];
+    powers.reserve(coefficients.size());
+    for (const MatrixXcd& matrix : coefficients) {
+      powers.push_back(matrix(row, static_cast<Index>(h)));
+    }
+    while (!powers.empty() && powers.back() == 0.0) {
+      powers.pop_back();
+    }
+  }
+  while (!series.coefficients.empty() && series.coefficients.back().empty()) {
+    series.coefficients.pop_back();
+  }
+  return series;
+}
+
 std::vector<PhaseSeries> series_of_fit(const PhaseFit& fit) {
   std::vector<PhaseSeries> all;
   for (Index row = 0; row < fit[0].rows(); ++row) {
-    PhaseSeries series;
-    series.coefficients.resize(static_cast<std::size_t>(fit[0].cols()));
-    for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
-      auto& powers = series.coefficients[h];
-      for (const MatrixXcd& matrix : fit) {
-        powers.push_back(matrix(row, static_cast<Index>(h)));
-      }
-      while (!powers.empty() && powers.back() == 0.0) {
-        powers.pop_back();
-      }
-    }
-    while (!series.coefficients.empty() && series.coefficients.back().empty()) {
-      series.coefficients.pop_back();
-    }
-    all.push_back(std::move(series));
+    all.push_back(series_of(fit, row));
   }
   return all;
 }

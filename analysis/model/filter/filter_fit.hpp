@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "analysis/model/filter/filter_numbers.hpp"
@@ -20,6 +21,8 @@ using PhaseFit = std::array<Eigen::MatrixXcd, kNodes>;
 [[nodiscard]] PhaseFit fit_of(const std::array<MatrixXd, kNodes>& values, int harmonics, double scale);
 /// A column of its values.
 [[nodiscard]] VectorXd value_of(const PhaseFit& fit, double z, double phase);
+/// The series of one row, from coefficients of z^d, each rows x harmonics; zeros at its end are left out.
+[[nodiscard]] PhaseSeries series_of(std::span<const Eigen::MatrixXcd> coefficients, Index row);
 /// A series for each row.
 [[nodiscard]] std::vector<PhaseSeries> series_of_fit(const PhaseFit& fit);
 

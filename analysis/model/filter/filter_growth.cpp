@@ -29,7 +29,9 @@ struct InUnits {
   SmallMatrix error, reach;
   /// Both with the multiplier mu: R^-1 error above sqrt(mu) reach.
   [[nodiscard]] SmallMatrix with(const SmallMatrix& root, double mu) const {
-    return rigor::stacked(lower_solution(root, error), combination(std::sqrt(mu), reach, 0.0, reach));
+    SmallMatrix below = reach;
+    below *= std::sqrt(mu);
+    return rigor::stacked(lower_solution(root, error), below);
   }
 };
 

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 using rigor::SmallMatrix;
 using rigor::SmallVector;
 
-/// Of a filter.
+/// The most states of a filter for which tubes are proposed.
 inline constexpr int kMostStates = 10;
 
 /// The parts of a filter in doubles.

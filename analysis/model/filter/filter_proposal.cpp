@@ -77,7 +77,9 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
   if (!root) {
     return std::numeric_limits<double>::infinity();
   }
-  return rigor::largest_absolute_eigenvalue(rigor::in_units_of(*root, rigor::combination(1.0, a, -1.0, b)));
+  const double size =
+      rigor::largest_absolute_eigenvalue(rigor::in_units_of(*root, rigor::combination(1.0, a, -1.0, b)));
+  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 
 /// The matrices of a tube as series.

@@ -99,7 +99,7 @@ class Cover {
     const std::size_t most = budget_.most_cells / (static_cast<std::size_t>(budget_.phases) *
                                                    static_cast<std::size_t>(budget_.frequencies)) +
                              64;
-    const auto look = [&](const TubeCell& cell) -> search::CellLook<TubeCell> {
+    const auto look = [&](const TubeCell& cell) -> search::CellDecision<TubeCell> {
       if (budget_.deadline.is_over()) {
         return {};
       }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <span>
 #include <stdexcept>
 
+#include "analysis/model/filter/filter_fit.hpp"
 #include "analysis/model/filter/filter_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -90,26 +90,6 @@ ShapeOnGrid shape_at(const ShapeFit& fit, const NodeCurve& curve, double z, cons
   return shape;
 }
 
-/// Row `row` of coefficients of z^d.
-PhaseSeries series_of(std::span<const MatrixXcd> coefficients, Index row) {
-  PhaseSeries series;
-  series.coefficients.resize(static_cast<std::size_t>(coefficients[0].cols()));
-  for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
-    auto& powers = series.coefficients[h];
-    powers.reserve(coefficients.size());
-    for (const MatrixXcd& matrix : coefficients) {
-      powers.push_back(matrix(row, static_cast<Index>(h)));
-    }
-    while (!powers.empty() && powers.back() == 0.0) {
-      powers.pop_back();
-    }
-  }
-  while (!series.coefficients.empty() && series.coefficients.back().empty()) {
-    series.coefficients.pop_back();
-  }
-  return series;
-}
-
 Tube tube_of(const TrackedTone& tone, const CurveFit& curve, const ShapeFit& shape) {
   const int n = tone.step.states();
   Tube tube;
@@ -120,9 +100,9 @@ Tube tube_of(const TrackedTone& tone, const CurveFit& curve, const ShapeFit& sha
   tube.curve.reserve(static_cast<std::size_t>(n));
   tube.shape.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(n + 1) / 2);
   for (int i = 0; i < n; ++i) {
-    tube.curve.push_back(series_of(curve.coefficients, i));
+    tube.curve.push_back(detail::series_of(curve.coefficients, i));
     for (int j = 0; j <= i; ++j) {
-      tube.shape.push_back(series_of(shape, j * n + i));
+      tube.shape.push_back(detail::series_of(shape, j * n + i));
     }
   }
   return tube;

@@ -103,7 +103,7 @@ std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const 
     }
     const rigor::UpwardRounding upward_here;
     std::int64_t looked = 0;  // cells outside are free
-    const auto look_at = [&](const Part& part) -> search::CellLook<Part> {
+    const auto look_at = [&](const Part& part) -> search::CellDecision<Part> {
       if (is_outside(set, part.cell)) {
         return {true};
       }

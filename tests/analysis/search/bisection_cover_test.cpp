@@ -14,7 +14,7 @@ struct Part {
 };
 
 /// |x - 1/3| >= 1/100 or the part is narrower than `narrow`, which holds wherever it is.
-CellLook<Part> look_at(const Part& part, double narrow) {
+CellDecision<Part> look_at(const Part& part, double narrow) {
   constexpr double kPlace = 1.0 / 3.0;
   constexpr double kApart = 0.01;
   const double middle = 0.5 * (part.low + part.high);
@@ -26,7 +26,7 @@ TEST_CASE("parts that hold cover the whole, each point once") {
   double covered = 0.0;
   double end = 0.0;
   const auto cover = cover_by_bisection(Part{}, 1000, [&](const Part& part) {
-    CellLook<Part> seen = look_at(part, 1e-3);
+    CellDecision<Part> seen = look_at(part, 1e-3);
     if (seen.holds) {
       CHECK(part.low == end);  // from the left to the right
       end = part.high;
@@ -54,7 +54,7 @@ TEST_CASE("a budget that is used up proves nothing") {
 
 TEST_CASE("a cell without parts ends the cover, and is named") {
   const auto cover = cover_by_bisection(Part{}, 1000, [](const Part& part) {
-    CellLook<Part> seen = look_at(part, 0.0);
+    CellDecision<Part> seen = look_at(part, 0.0);
     if (part.high - part.low < 1e-6) {
       seen.parts.reset();
     }

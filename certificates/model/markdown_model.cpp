@@ -9,6 +9,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/model/markdown_model_gains.hpp"
 #include "certificates/model/markdown_model_lock.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
@@ -123,10 +124,11 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
                   !moves                            ? "—"
                   : assume.slew_in_hertz_per_second ? "Hz per second"
                                                     : "rad/sample per sample"});
-  rows.push_back(
-      {"deviation of the starts from the steady state, at most",
-       assume.start_within.empty() ? "any that is inside the certified set" : equations(assume.start_within),
-       assume.start_within.empty() ? "—" : "of the state"});
+  rows.push_back({"deviation of the starts from the steady state, at most",
+                  !assume.start_within.empty()    ? equations(assume.start_within)
+                  : model_sets(certificate).gains ? "none, where a statement names no other"
+                                                  : "any that is inside the certified set",
+                  assume.start_within.empty() ? "—" : "of the state"});
   if (!assume.start_exactly.empty()) {
     rows.push_back(
         {"the start, at any phase of the signal", equations(assume.start_exactly), "of the state"});
@@ -205,6 +207,10 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   const rigor::UpwardRounding upward;
   const ModelTables& tables = model_tables(certificate.design);
   const Model model = make_model(tables.model, tables.assume.signal);
+  if (model_sets(certificate).gains) {
+    return design_section(certificate, tables, model) + model_gains_section(certificate, model, options) +
+           recursion_section(model) + gains_coverage_section(tables);
+  }
   return design_section(certificate, tables, model) + model_lock_section(certificate) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
          recursion_section(model) + coverage_section(tables, model_sets(certificate).bounds_covariance);

@@ -265,6 +265,13 @@ rigor::Interval value_of_parameters(std::vector<NamedFormula> parameters, const 
 
 }  // namespace
 
+bool is_pure_tone(const ModelTables& tables) {
+  const std::vector<SourceText> signal = signal_of(tables.model, tables.assume.signal);
+  const std::vector<SourceText> tone = signal_of(tables.model, {});
+  return std::equal(signal.begin(), signal.end(), tone.begin(), tone.end(),
+                    [](const SourceText& a, const SourceText& b) { return a.text == b.text; });
+}
+
 std::vector<rigor::Interval> exact_start(const Model& model, const ModelTable& table,
                                          const std::vector<NamedText>& start_exactly) {
   std::vector<rigor::Interval> state;

@@ -32,6 +32,9 @@ struct Model {
 [[nodiscard]] std::vector<SourceText> signal_of(const ModelTable& table,
                                                 const std::vector<SourceText>& signal);
 
+/// Whether the signal is the tone alone, written out or not.
+[[nodiscard]] bool is_pure_tone(const ModelTables& tables);
+
 /// Throws language::LanguageError, with a position in the design file, for what cannot be understood. Needs
 /// the upward rounding mode.
 [[nodiscard]] Model make_model(const ModelTable& table, const std::vector<SourceText>& signal);

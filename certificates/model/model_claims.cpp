@@ -74,6 +74,9 @@ class ModelClaims {
         scope.is_any && captures_start() && names_lock(*deciding_)) {
       add_capture(*sets_->capture, scope.part);
     }
+    if (sets_->gains && sets_->gains->radius) {
+      add_stability(*sets_->gains->radius);
+    }
     if (const auto limits = limits_of(*sets_, tables_->assume)) {
       add_limits(*limits);
     }
@@ -146,7 +149,8 @@ class ModelClaims {
             "a certified invariant set" + in_lock + " contains frequency errors up to {} at every phase",
             frequency_words);
       };
-      decide_size(say, {covers_assumptions() ? deciding_->reach : 0.0, deciding_}, *number,
+      const ProvedSet* set = sets_->reach ? &*sets_->reach : deciding_;
+      decide_size(say, {covers_assumptions() ? set->reach : 0.0, set}, *number,
                   "The certified set reaches {} rad/sample", assumption_objection());
     }
     const std::string settled = words_.constant_tone() + ", without noise, " + words_.started_in("starts");
@@ -180,7 +184,7 @@ class ModelClaims {
  private:
   /// For a part of the band.
   [[nodiscard]] ModelWords words_for(std::optional<BandPart> part) const {
-    return ModelWords(*tables_, std::move(part), sets_->bounds_covariance);
+    return ModelWords(*tables_, std::move(part), sets_->starts_in());
   }
   static Claim reported(const char* id, const std::string& hypotheses) {
     Claim claim;
@@ -191,9 +195,35 @@ class ModelClaims {
     return claim;
   }
   /// " (by the set "assumed" of the certificate)", for a set that was made for something else.
-  static std::string by_set(const ProvedSet& set, const char* usual) {
-    return set.tubes.name == usual ? std::string()
-                                   : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
+  [[nodiscard]] std::string by_set(const ProvedSet& set, const char* usual) const {
+    return sets_->gains || set.tubes.name == usual
+               ? std::string()
+               : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
+  }
+  /// Of the linear recursion of a loop that is certified by gains.
+  void add_stability(const linear::RadiusBounds& radius) {
+    Claim claim = reported("model/stability", words_.constant_tone() + ", without noise");
+    if (radius.upper < 1.0) {
+      const std::string decay = rigor::to_decimal(radius.upper, 8, rigor::Direction::up);
+      claim.values = {{"decay", decay}};
+      claim.statement += fmt::format(
+          ", the loop is stable: to first order, errors about the steady state of the certificate shrink in "
+          "the "
+          "long run by a factor of at most {} each sample",
+          decay);
+    } else if (radius.lower > 1.0) {
+      const std::string growth = below(radius.lower);
+      claim.values = {{"growth", growth}};
+      claim.verdict = Verdict::refuted;
+      claim.statement += fmt::format(
+          ", the loop is stable: to first order, no error about the steady state of the certificate grows by "
+          "a "
+          "factor of {} or more each sample",
+          growth);
+    } else {
+      return;
+    }
+    add(claim);
   }
   /// The grid is evidence: where the checker begins.
   void add_capture(const ModelCapture& capture, const std::optional<BandPart>& part) {
@@ -397,6 +427,9 @@ class ModelClaims {
   /// The number of samples after which the error is below the target at all frequencies; infinity when it is
   /// not known.
   [[nodiscard]] double samples_below(const Number& target) const {
+    if (sets_->gains) {
+      return model::samples_below(*sets_->gains, target.value);
+    }
     const Model model = make_model(tables_->model, tables_->assume.signal);
     const model::TrackerModel tracker = proved_model(model, tables_->assume);
     // The first level below it.
@@ -513,6 +546,13 @@ class ModelClaims {
                 : std::string());
   }
   [[nodiscard]] std::string guarantee_objection(bool is_met = false) const {
+    if (covers_assumptions() && sets_->gains) {
+      return std::isfinite(deciding_->start_share)
+                 ? fmt::format(
+                       "Of the assumed starts, only deviations {} times as large are proved to settle.",
+                       below(1.0 / deciding_->start_share))
+                 : "No such starts, however close to the steady state, are proved to settle.";
+    }
     if (covers_assumptions() && std::isfinite(deciding_->start_share)) {
       return fmt::format("The assumed starts are up to {} times outside the certified tube.",
                          above(deciding_->start_share));

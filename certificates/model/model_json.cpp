@@ -176,8 +176,30 @@ Json model_design_json(const Design& design) {
   return {{"model", recursion}, {"assume", assumed}, {"require", required}};
 }
 
+namespace {
+
+Json gains_json(const model::GainProof& proof) {
+  Json steady = Json::array();
+  for (const model::SteadyValue& each : proof.steady) {
+    steady.push_back({{"turns", each.turns},
+                      {"constant", rigor::to_hexadecimal(each.constant)},
+                      {"per_frequency", rigor::to_hexadecimal(each.per_frequency)}});
+  }
+  Json json{{"steady_state", steady}};
+  if (proof.gains) {
+    json["horizon"] = proof.gains->samples();
+    json["blocks"] = proof.gains->blocks();
+  }
+  return json;
+}
+
+}  // namespace
+
 Json model_evidence_json(const Certificate& certificate) {
   const ModelSets& sets = model_sets(certificate);
+  if (sets.gains) {
+    return {{"gains", gains_json(*sets.gains)}};
+  }
   Json list = Json::array();
   const auto list_all = [&](const model::TubeSet& set) {
     for (const model::TubeSet& part : model::sets_of_amplitudes(set)) {

@@ -173,7 +173,7 @@ bool in_unit(const TomlValue& value, std::string_view unit, const Read& read) {
 void frequency_band(const TomlValue& value, ModelAssumptions& assume) {
   assume.frequency_in_hertz = in_unit(value, "hz", [&](const TomlValue& band) {
     const std::vector<TomlValue> ends = band.elements(2);
-    assume.frequency = {ends[0].real(not_negative), ends[1].real(positive)};
+    assume.frequency = {ends[0].real(any_number), ends[1].real(any_number)};
     if (!rigor::certainly_less_equal(assume.frequency[0].tight, assume.frequency[1].tight)) {
       value.refuse(fmt::format("[{}, {}]", assume.frequency[0].text, assume.frequency[1].text));
     }
@@ -223,7 +223,8 @@ constexpr std::array kModelAssumeKeys{
                      kOptional, kOnlyEqual},
     Key<ModelAssume>{
         "frequency",
-        "[lowest, highest] in rad/sample, 0 or more, or with sample_rate { hz = [lowest, highest] }",
+        "[lowest, highest] in rad/sample, of one channel 0 or more, or with sample_rate { hz = [lowest, "
+        "highest] }",
         frequency_band, kRequired, kWiderBand},
     Key<ModelAssume>{"noise", kNoiseThatMayBeGaussian, noise_of_samples, kRequired, kContractOfNoise},
     Key<ModelAssume>{"samples", kSamplesOfProbability, real<&ModelAssume::samples, is_number_of_samples>,
@@ -340,6 +341,16 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   if ((assume.frequency_in_hertz || assume.slew_in_hertz_per_second) && !assume.sample_rate) {
     return TableObjection{
         "assume", "a frequency in Hz without sample_rate; allowed: sample_rate = ..., in Hz", {}};
+  }
+  if (model.samples.size() == 1 &&
+      (!not_negative(assume.frequency[0].value) || !positive(assume.frequency[1].value))) {
+    return TableObjection{
+        "assume",
+        fmt::format(
+            "a frequency of [{}, {}]; allowed for one channel, which does not tell a frequency from its "
+            "negative: 0 or more",
+            assume.frequency[0].text, assume.frequency[1].text),
+        assume.frequency[0].position};
   }
   if (model.ekf.has_value() == !model.states.empty() || model.ekf.has_value() == !model.step.text.empty()) {
     return TableObjection{"model", "allowed: either states and step, or the table [model.ekf]", {}};

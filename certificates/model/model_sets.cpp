@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "analysis/model/question/gain_sets.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/operation_words.hpp"
@@ -155,7 +156,9 @@ model::SetQuestion question_of(const Model& model, const ModelTables& tables, bo
       return tone;
     };
   }
-  question.band = model::searched_band(band_of(assume), model.samples.size());
+  question.whole_band = band_of(assume);
+  question.band = model::searched_band(question.whole_band, model.samples.size());
+  question.allows_gains = is_pure_tone(tables) && assume.start_exactly.empty() && !assume.gaussian;
   question.noise = assume.gaussian ? 0.0 : assume.noise.value.upper();
   question.slew = slew_of(assume).upper();
   question.deviations = start_deviations(model, tables.model, assume.start_within);
@@ -201,9 +204,14 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   question.largest_noise = is_everything || require.largest_noise_at_least;
   question.largest_slew = question.slew > 0.0 || require.largest_slew_at_least;
   question.is_thorough = is_everything;
+  question.reach_of_assumed = require.frequency_error_radius_at_least.has_value();
   question.deadline = deadline;
   ModelSets sets;
   sets.bounds_covariance = question.tone.filter != nullptr;
+  if (std::optional<model::ProvedSets> proved = model::prove_by_gains(question)) {
+    static_cast<model::ProvedSets&>(sets) = *std::move(proved);
+    return sets;
+  }
   sets.objection = objection_to(model, question.band, sets.bounds_covariance);
   if (!sets.objection.empty()) {
     return sets;

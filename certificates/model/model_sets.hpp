@@ -9,6 +9,7 @@
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_capture.hpp"
 #include "certificates/model/model_lock.hpp"
+#include "certificates/model/model_words.hpp"
 
 namespace veritrack::certificates {
 
@@ -19,6 +20,10 @@ struct ModelSets : model::ProvedSets {
   std::optional<ModelLock> lowest_snr;  ///< for the most Gaussian noise that can be proved
   bool bounds_covariance = false;       ///< the tubes bound a filter's covariance
   std::string objection;                ///< why nothing is certified for the assumptions; or empty
+
+  [[nodiscard]] StartsIn starts_in() const {
+    return gains ? StartsIn::steady_state : bounds_covariance ? StartsIn::set_with_covariance : StartsIn::set;
+  }
 };
 
 /// The tracker of a model on its signal: for proofs, and for proposals. The members refer to the model.

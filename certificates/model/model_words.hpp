@@ -16,17 +16,17 @@
 
 namespace veritrack::certificates {
 
+/// What starts are about: a set of the certificate, one of a filter's estimate with bounds of its covariance,
+/// or, in a proof by gains, the steady state.
+enum class StartsIn { set, set_with_covariance, steady_state };
+
 /// The words of the hypotheses.
 class ModelWords {
  public:
   /// `part`: the part of the band to which statements are limited; none for the whole band.
-  /// `bounds_covariance`: the sets are those of a filter's estimate, with bounds of its covariance.
   explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt,
-                      bool bounds_covariance = false)
-      : assume_(&tables.assume),
-        is_tone_(is_pure_tone(tables)),
-        part_(std::move(part)),
-        bounds_covariance_(bounds_covariance) {}
+                      StartsIn starts = StartsIn::set)
+      : assume_(&tables.assume), is_tone_(is_pure_tone(tables)), part_(std::move(part)), starts_(starts) {}
 
   [[nodiscard]] std::string unit() const { return assume_->frequency_in_hertz ? "Hz" : "rad/sample"; }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
@@ -75,7 +75,9 @@ class ModelWords {
   }
   /// For a start in the set of that name.
   [[nodiscard]] std::string started_in(const std::string& set) const {
-    return "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
+    return starts_ == StartsIn::steady_state
+               ? std::string("started in the steady state of the certificate")
+               : "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
   }
   /// The state that the tracker is started in.
   [[nodiscard]] std::string started_exactly() const {
@@ -90,7 +92,9 @@ class ModelWords {
 
  private:
   [[nodiscard]] std::string covariance_of(const std::string& set) const {
-    return bounds_covariance_ ? ", with a covariance between the bounds of the set \"" + set + "\"" : "";
+    return starts_ == StartsIn::set_with_covariance
+               ? ", with a covariance between the bounds of the set \"" + set + "\""
+               : "";
   }
   [[nodiscard]] std::string rate() const {
     return assume_->sample_rate ? fmt::format(" at {} samples per second", assume_->sample_rate->text) : "";
@@ -104,22 +108,16 @@ class ModelWords {
     return states;
   }
   [[nodiscard]] std::string start_within(const std::string& set) const {
-    return ", started within {" + listed(assume_->start_within) + "} of the curve of the set \"" + set +
-           "\" of the certificate, the other states on it";
-  }
-
-  /// Whether the signal is the tone alone, written out or not.
-  static bool is_pure_tone(const ModelTables& tables) {
-    const std::vector<SourceText> signal = signal_of(tables.model, tables.assume.signal);
-    const std::vector<SourceText> tone = signal_of(tables.model, {});
-    return std::equal(signal.begin(), signal.end(), tone.begin(), tone.end(),
-                      [](const SourceText& a, const SourceText& b) { return a.text == b.text; });
+    return ", started within {" + listed(assume_->start_within) +
+           (starts_ == StartsIn::steady_state
+                ? std::string("} of the steady state of the certificate, the other states in it")
+                : "} of the curve of the set \"" + set + "\" of the certificate, the other states on it");
   }
 
   const ModelAssumptions* assume_;
   bool is_tone_ = false;
   std::optional<BandPart> part_;
-  bool bounds_covariance_ = false;
+  StartsIn starts_;
 };
 
 }  // namespace veritrack::certificates

@@ -286,6 +286,9 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
     add("largest slew", *sets.slew);
   }
   std::vector<Figure> figures;
+  if (sets.gains) {
+    return figures;
+  }
   if (!proved.empty()) {
     figures.push_back(reach_figure(proved, tracker, units));
     if (has_own(sets.noise, &ProvedTube::own_noise) || has_own(sets.slew, &ProvedTube::own_slew)) {

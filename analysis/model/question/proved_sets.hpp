@@ -4,11 +4,26 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/linear/stability.hpp"
+#include "analysis/model/gain/gain_bounds.hpp"
 #include "analysis/model/question/set_question.hpp"
 #include "analysis/model/set/proved_set.hpp"
 #include "analysis/model/steady_state/linear_worst_case.hpp"
 
 namespace veritrack::model {
+
+/// A proof without tubes (docs/gain-proof.md): the sets are the states that can be reached from the steady
+/// state, or from the assumed starts.
+struct GainProof {
+  std::vector<SteadyValue> steady;             ///< by state
+  std::optional<linear::RadiusBounds> radius;  ///< of the linear recursion
+  std::optional<GainBounds> gains;             ///< none of an unstable loop
+  std::optional<LoopBounds> assumed = {};      ///< for the assumed starts, noise and slew
+};
+
+/// The first sample from which on the error is certainly below `target`, rad/sample, for what is assumed;
+/// infinity where that is not known. Holds upward rounding.
+[[nodiscard]] double samples_below(const GainProof& proof, const rigor::Interval& target);
 
 /// The requested sets, and the reasons for those that were not proved.
 struct ProvedSets {
@@ -20,6 +35,10 @@ struct ProvedSets {
   std::vector<FrequencySlice> slices;  ///< of `starts`
   /// The frequency error in the long run of `assumed` to first order, not proved; none where it is unknown.
   std::optional<LinearWorstCase> linear;
+
+  /// By gains: for the assumed noise and slew, and starts of which the frequency is off as far as possible.
+  std::optional<ProvedSet> reach = {};
+  std::optional<GainProof> gains = {};  ///< the proof, where it is by gains
 
   /// The set for what is assumed.
   [[nodiscard]] const ProvedSet& deciding() const { return assumed ? *assumed : starts; }

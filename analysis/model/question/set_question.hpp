@@ -19,17 +19,21 @@ struct SetQuestion {
   TrackerModel tracker;  ///< for proofs
   /// For an amplitude that is constant and somewhere in the range of `tracker`; otherwise empty.
   ToneAtAmplitude tone_at = {};
-  SearchedBand band = {};                        ///< not empty
+  SearchedBand band = {};           ///< not empty
+  rigor::Interval whole_band = {};  ///< as it is assumed, rad/sample
+  /// The signal is the tone alone, and nothing is asked that only tubes answer (a start that is captured).
+  bool allows_gains = false;
   double noise = 0.0;                            ///< at most, signal units
   double slew = 0.0;                             ///< at most, rad/sample per sample
   std::vector<rigor::Interval> deviations = {};  ///< of the assumed starts from the curve, one for each state
   bool assumes_start = false;  ///< deviations of starts are assumed: shapes are made for them
   /// The frequency error is to be less, rad/sample.
   std::optional<rigor::Interval> required_error = {};
-  bool largest_noise = false;  ///< the most noise that is tolerated
-  bool largest_slew = false;   ///< the most slew, without noise
-  bool is_thorough = false;    ///< also the disturbance that each cell tolerates, and the error expected to
-                               ///< first order
+  bool largest_noise = false;     ///< the most noise that is tolerated
+  bool largest_slew = false;      ///< the most slew, without noise
+  bool reach_of_assumed = false;  ///< by gains: the reach with the assumed noise and slew
+  bool is_thorough = false;  ///< also the disturbance that each cell tolerates, and the error expected to
+                             ///< first order
   /// The search stops there; required sets are searched for first.
   search::Deadline deadline = {};
 

@@ -1,0 +1,269 @@
+// Quotients, functions, and the angles of waves: docs/gain-proof.md, section 2.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "analysis/model/gain/frame_rules.hpp"
+#include "analysis/rigor/elementary.hpp"
+
+namespace veritrack::model {
+
+using rigor::Interval;
+using Kind = FrameValue::Kind;
+
+bool FrameRules::find_pattern(Frame& frame, const Waves& y, const Waves& x, WavePattern& pattern) {
+  if (y.size() != 1 || x.size() != 1 || y.begin()->first != x.begin()->first) {
+    return false;
+  }
+  const Monomial& monomial = y.begin()->first;
+  const WaveWeights& of_y = y.begin()->second;
+  const WaveWeights& of_x = x.begin()->second;
+  const bool turns_on = of_x.imaginary == -of_y.real && of_y.imaginary == of_x.real;
+  const bool turns_back = of_x.imaginary == of_y.real && of_y.imaginary == -of_x.real;
+  const bool is_quarter = (of_x.real == 0.0) == (of_y.real != 0.0);
+  if (monomial.is_real() || !is_quarter || (!turns_on && !turns_back)) {
+    return false;
+  }
+  Interval factor(1.0);
+  for (const int name : monomial.factors) {
+    factor *= frame.factors_.at(name);
+  }
+  const bool is_positive = rigor::certainly_less(Interval(0.0), factor);
+  if (!is_positive && !rigor::certainly_less(factor, Interval(0.0))) {
+    return false;
+  }
+  const int quarters = of_x.real != 0.0 ? (of_x.real > 0.0 ? 0 : 2) : (of_y.real > 0.0 ? 1 : 3);
+  pattern = {monomial, turns_on ? 1 : -1, (quarters + (is_positive ? 0 : 2)) % 4};
+  return true;
+}
+
+FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int turns_per_period) {
+  const double sign = pattern.sign;
+  FrameLine angle = scaled(phase_of(frame, pattern.monomial), Interval(sign), sign);
+  if (pattern.monomial.order != 0) {
+    if (frame.angle_input_ < 0) {
+      FrameInput input;
+      input.at_noise = [amplitude = frame.amplitude_](double noise) {
+        return noise < amplitude.lower() ? rigor::asin(Interval(noise) / Interval(amplitude.lower())).upper()
+                                         : INFINITY;
+      };
+      frame.angle_input_ = add_input(frame, std::move(input));
+    }
+    const auto [place, is_new] = angle.inputs.try_emplace(frame.angle_input_, Interval(0.0));
+    place->second += Interval(sign * pattern.monomial.order);
+  }
+  angle.constant += Interval(0.5 * pattern.quarters) * rigor::pi();
+  if (angle.turns != 0) {
+    if (turns_per_period != 1) {
+      throw NoFrame("a value that depends on the phase of the signal");
+    }
+    angle.is_modular = true;
+    return angle;
+  }
+  const Interval half_period = rigor::pi() / Interval(static_cast<double>(turns_per_period));
+  const Interval base = angle.constant + angle.per_frequency * frame.band_;
+  const double periods = std::round(rigor::midpoint(base) / (2.0 * rigor::midpoint(half_period)));
+  const Interval moved = Interval(2.0 * periods) * half_period;
+  angle.constant -= moved;
+  angle.is_modular = false;
+  add_limit(frame, add_form(frame, angle), half_period - Interval(rigor::magnitude(base - moved)));
+  return angle;
+}
+
+namespace {
+
+FrameValue function(FrameOperation operation, const FrameValue& a) {
+  Frame& frame = FrameRules::frame_of(a, a);
+  const int name = FrameRules::named(frame, operation, FrameRules::name_of(frame, a));
+  return {&frame, name, FrameRules::function_line(frame, operation, frame.line_of(a))};
+}
+
+FrameValue sine(const FrameValue& a, FrameOperation operation, WaveWeights weights) {
+  Frame& frame = FrameRules::frame_of(a, a);
+  const int name = FrameRules::named(frame, operation, FrameRules::name_of(frame, a));
+  if (a.is_constant()) {
+    FrameLine line;
+    line.constant =
+        operation == FrameOperation::sine ? rigor::sin(a.line().constant) : rigor::cos(a.line().constant);
+    return {&frame, name, std::move(line)};
+  }
+  FrameRules::keep_angle(frame, a.name(), frame.line_of(a));
+  Waves waves;
+  FrameRules::add_wave(waves, {0, 0, {{a.name(), 1}}, {}}, weights);
+  return {&frame, name, Kind::waves, std::move(waves)};
+}
+
+/// 1/x for a constant, or for real waves of one monomial, by which one may divide exactly.
+bool reciprocal_of(Frame& frame, const FrameValue& x, Waves& result) {
+  Waves waves;
+  if (!FrameRules::as_waves(x, waves) || waves.size() != 1 || !waves.begin()->first.is_real()) {
+    return false;
+  }
+  const auto& [monomial, weights] = *waves.begin();
+  Monomial other;
+  other.magnitude = -monomial.magnitude;
+  for (const int factor : monomial.factors) {
+    other.factors.push_back(FrameRules::reciprocal_factor(frame, factor));
+  }
+  int exponent = 0;
+  const double digits = std::frexp(weights.real, &exponent);
+  const bool is_power_of_two = std::fabs(digits) == 0.5;
+  if (!is_power_of_two) {
+    other.factors.push_back(
+        FrameRules::reciprocal_factor(frame, FrameRules::exact_factor(frame, weights.real)));
+  }
+  std::sort(other.factors.begin(), other.factors.end());
+  FrameRules::add_wave(result, std::move(other), {is_power_of_two ? 1.0 / weights.real : 1.0, 0.0});
+  return true;
+}
+
+/// The root of real waves of one monomial that is a square.
+bool root_of(const Waves& waves, Waves& result) {
+  if (waves.size() != 1 || !waves.begin()->first.is_real() || waves.begin()->first.magnitude % 2 != 0 ||
+      !waves.begin()->first.factors.empty() || !(waves.begin()->second.real > 0.0)) {
+    return false;
+  }
+  const double root = std::round(std::sqrt(waves.begin()->second.real) * 0x1p10) * 0x1p-10;
+  if (root * root != waves.begin()->second.real) {
+    return false;
+  }
+  FrameRules::add_wave(result, {waves.begin()->first.magnitude / 2, 0, {}, {}}, {root, 0.0});
+  return true;
+}
+
+FrameValue named_line(FrameOperation operation, const FrameValue& a, const FrameValue& b, FrameLine line) {
+  Frame& frame = FrameRules::frame_of(a, b);
+  return {&frame, FrameRules::named(operation, a, b), std::move(line)};
+}
+
+}  // namespace
+
+void FrameRules::keep_angle(Frame& frame, int name, const FrameLine& line) {
+  frame.angles_.try_emplace(name, line);
+}
+
+int FrameRules::exact_factor(Frame& frame, double number) {
+  const auto [place, is_new] = frame.exact_.try_emplace(number, frame.names_);
+  frame.names_ += is_new ? 1 : 0;
+  frame.factors_.try_emplace(place->second, Interval(number));
+  return place->second;
+}
+
+int FrameRules::reciprocal_factor(Frame& frame, int factor) {
+  const int name = named(frame, FrameOperation::reciprocal, factor);
+  frame.factors_.try_emplace(name, Interval(1.0) / frame.factors_.at(factor));
+  return name;
+}
+
+FrameValue operator/(const FrameValue& a, const FrameValue& b) {
+  Frame& frame = FrameRules::frame_of(a, b);
+  const int name = FrameRules::named(FrameOperation::divide, a, b);
+  WavePattern pattern;
+  if (a.kind() == Kind::waves && b.kind() == Kind::waves &&
+      FrameRules::find_pattern(frame, a.waves(), b.waves(), pattern)) {
+    // The pattern, in the place of weights.
+    Waves kept;
+    kept[pattern.monomial] = {static_cast<double>(pattern.sign), static_cast<double>(pattern.quarters)};
+    return {&frame, name, Kind::tangent, std::move(kept)};
+  }
+  Waves waves;
+  Waves reciprocal;
+  const bool has_waves = a.kind() == Kind::waves || b.kind() == Kind::waves;
+  if (has_waves && FrameRules::as_waves(a, waves) && reciprocal_of(frame, b, reciprocal)) {
+    return {&frame, name, Kind::waves, FrameRules::product_of(waves, reciprocal)};
+  }
+  if (b.is_constant()) {
+    const std::optional<double> exact = FrameRules::exact(b);
+    const bool is_sign = exact && (*exact == 1.0 || *exact == -1.0);
+    return {&frame, name,
+            FrameRules::scaled(frame.line_of(a), Interval(1.0) / b.line().constant,
+                               is_sign ? exact : std::optional<double>())};
+  }
+  return a * function(FrameOperation::reciprocal, b);
+}
+
+FrameValue sqrt(const FrameValue& a) {
+  Waves root;
+  if (a.kind() == Kind::waves && root_of(a.waves(), root)) {
+    return {a.frame(), FrameRules::named(*a.frame(), FrameOperation::root, a.name()), Kind::waves,
+            std::move(root)};
+  }
+  return function(FrameOperation::root, a);
+}
+FrameValue exp(const FrameValue& a) {
+  return function(FrameOperation::exponential, a);
+}
+FrameValue log(const FrameValue& a) {
+  return function(FrameOperation::logarithm, a);
+}
+FrameValue sin(const FrameValue& a) {
+  return sine(a, FrameOperation::sine, {0.0, 1.0});
+}
+FrameValue cos(const FrameValue& a) {
+  return sine(a, FrameOperation::cosine, {1.0, 0.0});
+}
+FrameValue tan(const FrameValue& a) {
+  return a.is_constant() ? function(FrameOperation::tangent, a) : sin(a) / cos(a);
+}
+FrameValue acos(const FrameValue& a) {
+  return function(FrameOperation::arccosine, a);
+}
+
+FrameValue asin(const FrameValue& a) {
+  // Of the sine of an angle: the angle, below a quarter turn.
+  if (a.kind() == Kind::waves && a.waves().size() == 1) {
+    const auto& [monomial, weights] = *a.waves().begin();
+    const bool is_sine = monomial.magnitude == 0 && monomial.factors.empty() && weights.real == 0.0 &&
+                         std::fabs(weights.imaginary) == 1.0;
+    if (is_sine) {
+      const WavePattern pattern{monomial, weights.imaginary > 0.0 ? 1 : -1, 0};
+      return {a.frame(), FrameRules::named(*a.frame(), FrameOperation::arcsine, a.name()),
+              FrameRules::angle_line(*a.frame(), pattern, 2)};
+    }
+  }
+  return function(FrameOperation::arcsine, a);
+}
+
+FrameValue atan(const FrameValue& a) {
+  if (a.kind() == Kind::tangent) {
+    const auto& [monomial, kept] = *a.waves().begin();
+    const WavePattern pattern{monomial, kept.real < 0.0 ? -1 : 1, static_cast<int>(kept.imaginary)};
+    return {a.frame(), FrameRules::named(*a.frame(), FrameOperation::arctangent, a.name()),
+            FrameRules::angle_line(*a.frame(), pattern, 2)};
+  }
+  return function(FrameOperation::arctangent, a);
+}
+
+FrameValue atan2(const FrameValue& y, const FrameValue& x) {
+  Frame& frame = FrameRules::frame_of(y, x);
+  WavePattern pattern;
+  if (y.is_constant() && x.is_constant()) {
+    FrameLine line;
+    line.constant = rigor::atan2(y.line().constant, x.line().constant);
+    return named_line(FrameOperation::arctangent2, y, x, std::move(line));
+  }
+  if (y.kind() != Kind::waves || x.kind() != Kind::waves ||
+      !FrameRules::find_pattern(frame, y.waves(), x.waves(), pattern)) {
+    throw NoFrame("atan2 of other than the two parts of one signal");
+  }
+  return named_line(FrameOperation::arctangent2, y, x, FrameRules::angle_line(frame, pattern, 1));
+}
+
+FrameValue stays_within(const FrameValue& x, const FrameValue& low, const FrameValue& high) {
+  Frame& frame = FrameRules::frame_of(x, low);
+  if (!low.is_constant() || !high.is_constant()) {
+    throw NoFrame("a limit that is not a constant");
+  }
+  FrameLine line = frame.line_of(x);
+  if (line.turns != 0 || line.is_modular) {
+    throw NoFrame("a limit of an angle");
+  }
+  const Interval base = line.constant + line.per_frequency * frame.band();
+  const double above = (high.line().constant - base).lower();
+  const double below = (base - low.line().constant).lower();
+  FrameRules::add_limit(frame, FrameRules::add_form(frame, line), Interval(std::min(above, below)));
+  return {&frame, FrameRules::named(frame, FrameOperation::within, x.name()), std::move(line)};
+}
+
+}  // namespace veritrack::model

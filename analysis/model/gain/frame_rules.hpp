@@ -1,0 +1,81 @@
+// The rules by which values are combined: shared by the files of frame_value.hpp.
+#pragma once
+
+#include <optional>
+
+#include "analysis/model/gain/frame_value.hpp"
+
+namespace veritrack::model {
+
+/// Numbers of operations, for names.
+enum class FrameOperation {
+  constant,
+  state,
+  sample,
+  add,
+  subtract,
+  multiply,
+  divide,
+  negate,
+  reciprocal,
+  root,
+  exponential,
+  logarithm,
+  sine,
+  cosine,
+  tangent,
+  arcsine,
+  arccosine,
+  arctangent,
+  arctangent2,
+  within,
+  line
+};
+
+/// Where Y = value Im-like and X = value Re-like of one wave M: X + i Y = kappa M or kappa conj(M), with
+/// kappa a positive number times i^quarters.
+struct WavePattern {
+  Monomial monomial;
+  int sign = 1;  ///< -1: of the conjugate
+  int quarters = 0;
+};
+
+struct FrameRules {
+  static Frame& frame_of(const FrameValue& a, const FrameValue& b);
+  static int name_of(Frame& frame, const FrameValue& value);
+  static int named(Frame& frame, FrameOperation operation, int first, int second = -1);
+  static int named(FrameOperation operation, const FrameValue& a, const FrameValue& b);
+
+  /// The number that a constant is, if it is exact: a double with few digits.
+  static std::optional<double> exact(const FrameValue& value);
+  static double exact_sum(double a, double b);
+  static double exact_product(double a, double b);
+  /// A constant or waves as waves; false for others.
+  static bool as_waves(const FrameValue& value, Waves& waves);
+  static void add_wave(Waves& waves, Monomial monomial, WaveWeights weights);
+  static Waves product_of(const Waves& a, const Waves& b);
+  static FrameLine sum_of(const FrameLine& a, const FrameLine& b, bool subtracts);
+  static FrameLine scaled(const FrameLine& line, const rigor::Interval& factor, std::optional<double> exact);
+
+  // Remainders and noise (frame_nodes.cpp).
+  static int add_form(Frame& frame, const FrameLine& line);
+  static int add_input(Frame& frame, FrameInput input);
+  static void add_limit(Frame& frame, int form, const rigor::Interval& room);
+  static FrameLine part_of_wave(Frame& frame, const Monomial& monomial, int part);
+  static int form_of_phase(Frame& frame, const Monomial& monomial, const FrameLine& phase);
+  static FrameLine line_of_waves(Frame& frame, const Waves& waves);
+  static FrameLine phase_of(Frame& frame, const Monomial& monomial);
+  static int disc(Frame& frame, const Monomial& monomial);
+  static FrameLine product_line(Frame& frame, const FrameLine& a, const FrameLine& b, bool is_square);
+  static FrameLine function_line(Frame& frame, FrameOperation operation, const FrameLine& operand);
+
+  // Angles, and division (frame_angles.cpp).
+  static void keep_angle(Frame& frame, int name, const FrameLine& line);
+  static int exact_factor(Frame& frame, double number);
+  static int reciprocal_factor(Frame& frame, int factor);
+  static bool find_pattern(Frame& frame, const Waves& y, const Waves& x, WavePattern& pattern);
+  /// The angle of kappa M: with a limit at half of the period where it has no turns.
+  static FrameLine angle_line(Frame& frame, const WavePattern& pattern, int turns_per_period);
+};
+
+}  // namespace veritrack::model

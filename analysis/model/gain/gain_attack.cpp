@@ -1,0 +1,88 @@
+#include "analysis/model/gain/gain_attack.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model {
+
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+Eigen::VectorXd state_at(const std::vector<SteadyValue>& steady, double phase, double omega) {
+  Eigen::VectorXd state(static_cast<Eigen::Index>(steady.size()));
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    state(static_cast<Eigen::Index>(i)) =
+        steady[i].turns * phase + steady[i].constant + steady[i].per_frequency * omega;
+  }
+  return state;
+}
+
+/// The directions of the noise in the frame of the signal, and the signs of the slew, by sample.
+struct Adjoint {
+  std::vector<std::complex<double>> noise;
+  std::vector<double> slew;
+};
+
+Adjoint adjoint_of(const TrackedTone& tone, const std::vector<SteadyValue>& steady, double omega,
+                   std::size_t samples) {
+  const auto n = static_cast<Eigen::Index>(steady.size());
+  const Eigen::VectorXd state = state_at(steady, 0.0, omega);
+  const Eigen::MatrixXd slope = tone.step.jacobian(state, samples_of(tone.signal, tone.amplitude, omega));
+  Eigen::VectorXd moved(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    moved(i) = -steady[static_cast<std::size_t>(i)].per_frequency;
+  }
+  Eigen::RowVectorXd row = tone.step.frequency_gradient(state);
+  Adjoint adjoint{std::vector<std::complex<double>>(samples), std::vector<double>(samples)};
+  for (std::size_t k = samples; k-- > 0;) {
+    const Eigen::RowVectorXd effect = row * slope.rightCols(2);
+    const std::complex<double> direction =
+        std::complex<double>(effect(0), effect(1)) * std::polar(1.0, -omega);
+    adjoint.noise[k] = std::abs(direction) > 0.0 ? direction / std::abs(direction) : 0.0;
+    adjoint.slew[k] = row.dot(moved) > 0.0 ? 1.0 : -1.0;
+    row = (row * slope.leftCols(n)).eval();
+  }
+  return adjoint;
+}
+
+}  // namespace
+
+double attack_loop(const TrackedTone& tone, const std::vector<SteadyValue>& steady, double omega,
+                   double noise, double slew, std::size_t samples) {
+  const rigor::NearestRounding nearest;
+  const Adjoint adjoint = adjoint_of(tone, steady, omega, samples);
+  double largest = 0.0;
+  // Straight at the linear effect, and so that the angle of the sample changes most.
+  const double lean = noise < tone.amplitude ? std::asin(noise / tone.amplitude) : 0.0;
+  for (const double angle : {0.0, lean}) {
+    double frequency = omega;
+    double phase = 0.0;
+    Eigen::VectorXd state = state_at(steady, phase, frequency);
+    for (std::size_t k = 0; k < samples; ++k) {
+      phase += frequency;
+      if (std::fabs(phase) > kTurn) {
+        // The same turn off the angles, so that nothing grows and rounds.
+        const double turn = std::copysign(kTurn, phase);
+        phase -= turn;
+        for (std::size_t i = 0; i < steady.size(); ++i) {
+          state(static_cast<Eigen::Index>(i)) -= steady[i].turns * turn;
+        }
+      }
+      const std::complex<double> across = adjoint.noise[k];
+      const std::complex<double> in_frame = noise * (across * std::cos(angle) - std::sin(angle));
+      const std::complex<double> sample = (tone.amplitude + in_frame) * std::polar(1.0, phase);
+      state = tone.step.next(state, Eigen::Vector2d(sample.real(), sample.imag()));
+      frequency += slew * adjoint.slew[k];
+      largest = std::max(largest, std::fabs(tone.step.frequency(state) - frequency));
+    }
+  }
+  return largest;
+}
+
+}  // namespace veritrack::model

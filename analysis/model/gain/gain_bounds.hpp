@@ -1,0 +1,67 @@
+// Bounds of a loop's errors for ever, after some time and in the long run, from its gains
+// (docs/gain-proof.md, section 5).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "analysis/model/gain/loop_network.hpp"
+
+namespace veritrack::model {
+
+/// The disturbances, and the start: the largest deviation of each state from the steady state.
+struct LoopDisturbance {
+  double noise = 0.0;              ///< signal units
+  double slew = 0.0;               ///< rad/sample per sample
+  std::vector<double> start = {};  ///< empty: in the steady state
+};
+
+/// The contributions to the frequency error in the long run, rad/sample, each at most.
+struct ErrorBudget {
+  double noise = 0.0, slew = 0.0, remainders = 0.0, steady_state = 0.0;
+};
+
+/// Bounds of the frequency error, rad/sample.
+struct LoopBounds {
+  double for_ever = 0.0;
+  std::vector<double> from_block;  ///< from the first sample of each block on
+  double long_run = 0.0;
+  ErrorBudget budget;  ///< of the long run
+};
+
+class GainBounds {
+ public:
+  /// Empty unless errors decay. `samples`: the horizon, a multiple of `blocks`. Needs the upward rounding
+  /// mode, as all of this.
+  [[nodiscard]] static std::optional<GainBounds> make(LoopNetwork network, std::size_t samples,
+                                                      std::size_t blocks);
+
+  [[nodiscard]] const LoopNetwork& network() const { return network_; }
+  [[nodiscard]] std::size_t samples() const { return samples_; }
+  [[nodiscard]] std::size_t blocks() const { return blocks_; }
+  /// The worst-case gain from inputs of this cause to the frequency error: its size in the long run where the
+  /// loop is linear.
+  [[nodiscard]] double linear_error(double noise, double slew) const;
+
+  /// Empty where no bound closes.
+  [[nodiscard]] std::optional<LoopBounds> bounds(const LoopDisturbance& disturbance) const;
+
+ private:
+  GainBounds(LoopNetwork network, linear::WorstCaseGains gains, std::size_t samples, std::size_t blocks);
+
+  using Bounds = std::vector<double>;  // of the forms
+  [[nodiscard]] std::vector<double> sizes(const LoopDisturbance& disturbance, const Bounds& bounds) const;
+  [[nodiscard]] bool keeps_limits(const Bounds& bounds) const;
+  [[nodiscard]] Bounds start_of_block(const LoopDisturbance& disturbance, std::size_t block) const;
+  [[nodiscard]] std::optional<std::vector<Bounds>> sequence(const LoopDisturbance& disturbance) const;
+  [[nodiscard]] Bounds in_the_long_run(const LoopDisturbance& disturbance, Bounds bounds) const;
+  class Block;
+
+  LoopNetwork network_;
+  linear::WorstCaseGains gains_;
+  std::size_t samples_, blocks_;
+  std::vector<std::vector<double>> total_;  // by form, by input: with direct terms
+};
+
+}  // namespace veritrack::model

@@ -1,0 +1,60 @@
+// A loop of two channels as a network: a linear recursion of its errors, with inputs whose sizes are known
+// (docs/gain-proof.md, section 3).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/linear/worst_case_gains.hpp"
+#include "analysis/model/steady_state/steady_state.hpp"
+#include "analysis/model/step/tube_step.hpp"
+
+namespace veritrack::model {
+
+/// The state at the phase phi and the frequency omega: turns phi + constant + per_frequency omega.
+struct SteadyValue {
+  int turns = 0;
+  double constant = 0.0;
+  double per_frequency = 0.0;
+};
+
+/// An input of the network.
+struct NetworkInput {
+  enum class Cause { noise, slew, remainder, residual };
+  Cause cause = Cause::noise;
+  std::string what;  ///< of a remainder: the operation
+  /// The size at most: of noise at this noise, of a slew at this slew, of a remainder at these bounds of the
+  /// forms.
+  std::function<double(double noise, double slew, const std::vector<double>& bounds)> size;
+};
+
+/// Of a form: the weights of an input within the sample, as many as it has components.
+struct DirectTerm {
+  std::size_t input = 0;
+  double weight = 0.0;  ///< the length of the weights, at most
+};
+
+struct LoopNetwork {
+  std::vector<linear::Row> a;                          ///< rows
+  std::vector<linear::GainInput> columns;              ///< of the inputs
+  std::vector<NetworkInput> inputs;                    ///< in the same order
+  std::vector<linear::Row> forms;                      ///< the last one is the frequency error
+  std::vector<std::vector<DirectTerm>> direct;         ///< of the forms
+  std::vector<std::pair<std::size_t, double>> limits;  ///< |form| < room
+  rigor::Interval bias;  ///< the frequency error in the steady state, rad/sample
+  /// The one state of which the frequency error is a multiple, and the factor; or none.
+  std::optional<std::pair<std::size_t, double>> frequency_state;
+};
+
+/// At the frequencies of `band`, rad/sample. Throws NoFrame where the rules do not cover the loop. Needs the
+/// upward rounding mode.
+[[nodiscard]] LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
+                                       const rigor::Interval& band);
+
+/// By Newton's method, at two frequencies of the band; empty where there is none. Not evidence.
+[[nodiscard]] std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackedTone& tone,
+                                                                            double low, double high);
+
+}  // namespace veritrack::model

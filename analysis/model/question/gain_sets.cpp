@@ -1,0 +1,241 @@
+#include "analysis/model/question/gain_sets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "analysis/model/gain/frame_value.hpp"
+#include "analysis/model/tube/false_lock.hpp"
+#include "analysis/rigor/elementary.hpp"
+
+namespace veritrack::model {
+
+using rigor::Interval;
+
+namespace {
+
+/// For a checker whose bounds are cruder.
+double widened(double bound) {
+  return rigor::mul_up(bound, 1.001);
+}
+
+/// Nearly the largest number up to `most` with this property, which smaller ones have; 0 where none was
+/// found.
+double largest_with(double most, const std::function<bool(double)>& holds) {
+  constexpr int kHalvings = 60;
+  constexpr int kSteps = 11;
+  constexpr double kRoom = 0.999;  // for a program whose bounds are cruder
+  double low = most;
+  for (int i = 0; i < kHalvings && !holds(low); ++i) {
+    low *= 0.5;
+  }
+  if (!holds(low)) {
+    return 0.0;
+  }
+  double high = std::min(most, 2.0 * low);
+  for (int i = 0; i < kSteps; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holds(middle) ? low : high) = middle;
+  }
+  return kRoom * low;
+}
+
+class GainSets {
+ public:
+  GainSets(const SetQuestion& question, const GainBounds& gains, double half_distance)
+      : question_(&question), gains_(&gains), half_distance_(half_distance) {}
+
+  [[nodiscard]] ProvedSets all() {
+    ProvedSets sets;
+    sets.starts = set_of(kStarts, {});
+    add_bias(sets.starts);
+    add_reach(sets.starts, {});
+    sets.assumed = set_of(kAssumed, {question_->noise, question_->slew, {}});
+    add_starts(*sets.assumed);
+    if (question_->largest_noise) {
+      sets.noise = largest(kLargestNoise, question_->tracker.amplitude.lower(), &LoopDisturbance::noise);
+    }
+    if (question_->largest_slew) {
+      sets.slew = largest(kLargestSlew, rigor::pi().lower(), &LoopDisturbance::slew);
+    }
+    if (question_->reach_of_assumed) {
+      const LoopDisturbance assumed{question_->noise, question_->slew, {}};
+      sets.reach = set_of(kAssumed, assumed);
+      add_reach(*sets.reach, assumed);
+    }
+    if (question_->is_thorough) {
+      sets.linear = LinearWorstCase{question_->whole_band.lower(), rigor::magnitude(gains_->network().bias),
+                                    gains_->linear_error(question_->noise, question_->slew)};
+    }
+    return sets;
+  }
+
+ private:
+  [[nodiscard]] bool is_lock(const std::optional<LoopBounds>& bounds) const {
+    return bounds && widened(widened(bounds->for_ever)) < half_distance_;
+  }
+
+  /// Of starts in the steady state.
+  [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance) const {
+    ProvedSet set;
+    set.tubes.name = name;
+    set.tubes.noise = disturbance.noise;
+    set.tubes.slew = disturbance.slew;
+    set.half_distance = half_distance_;
+    set.start_share = 0.5;
+    const std::optional<LoopBounds> bounds = gains_->bounds(disturbance);
+    set.tubes.is_complete = bounds.has_value();
+    if (bounds) {
+      set.frequency_error = widened(bounds->for_ever);
+      set.settled_error = widened(bounds->long_run);
+    } else {
+      set.tubes.reasons.emplace_back("the bounds of the errors do not close: too much noise or slew");
+    }
+    return set;
+  }
+
+  [[nodiscard]] ProvedSet largest(const char* name, double most, double LoopDisturbance::*size) const {
+    const double found = largest_with(most, [&](double value) {
+      LoopDisturbance disturbance;
+      disturbance.*size = value;
+      return is_lock(gains_->bounds(disturbance));
+    });
+    LoopDisturbance disturbance;
+    disturbance.*size = found;
+    return set_of(name, disturbance);
+  }
+
+  /// Without noise the error in the long run is that of the steady state, up to its residual.
+  void add_bias(ProvedSet& set) const {
+    if (!set.is_proved()) {
+      return;
+    }
+    const Interval& bias = gains_->network().bias;
+    const double residual = widened(rigor::sub_up(set.settled_error, rigor::magnitude(bias)));
+    set.bias = bias + Interval::from_bounds(-residual, residual);
+    set.ripple = 2.0 * residual;
+  }
+
+  /// The largest frequency error at the start, with the other states in the steady state.
+  void add_reach(ProvedSet& set, LoopDisturbance disturbance) const {
+    const auto& state = gains_->network().frequency_state;
+    if (!state || !set.is_proved()) {
+      return;
+    }
+    const auto from = [&](double error) {
+      disturbance.start.assign(gains_->network().a.size(), 0.0);
+      disturbance.start[state->first] = rigor::div_up(error, state->second);
+      return gains_->bounds(disturbance);
+    };
+    set.reach = largest_with(rigor::pi().lower(), [&](double error) { return is_lock(from(error)); });
+    if (const auto bounds = from(set.reach); set.reach > 0.0 && bounds) {
+      set.frequency_error = widened(bounds->for_ever);
+    }
+  }
+
+  /// The assumed starts, and their share of the largest ones of their shape.
+  void add_starts(ProvedSet& set) {
+    LoopDisturbance disturbance{question_->noise, question_->slew, {}};
+    if (!question_->assumes_start || !set.is_proved()) {
+      return;
+    }
+    const auto from = [&](double share) {
+      disturbance.start.clear();
+      for (const Interval& each : question_->deviations) {
+        disturbance.start.push_back(rigor::mul_up(share, each.upper()));
+      }
+      return gains_->bounds(disturbance);
+    };
+    if (const auto bounds = from(1.0)) {
+      set.frequency_error = widened(bounds->for_ever);
+      set.settled_error = widened(bounds->long_run);
+      return;
+    }
+    const double share = largest_with(1.0, [&](double each) { return from(each).has_value(); });
+    set.start_share = share > 0.0 ? 1.0 / share : INFINITY;
+  }
+
+  const SetQuestion* question_;
+  const GainBounds* gains_;
+  double half_distance_;
+};
+
+}  // namespace
+
+namespace {
+
+ProvedSets unstable(GainProof proof) {
+  ProvedSets sets;
+  sets.starts.tubes.name = kStarts;
+  sets.starts.tubes.reasons.emplace_back(fmt::format(
+      "the loop is unstable: to first order, an error about its steady state grows by a factor of {:.4g} "
+      "or more each sample",
+      proof.radius->lower));
+  sets.assumed = sets.starts;
+  sets.assumed->tubes.name = kAssumed;
+  sets.gains = std::move(proof);
+  return sets;
+}
+
+}  // namespace
+
+double samples_below(const GainProof& proof, const Interval& target) {
+  if (!proof.assumed) {
+    return INFINITY;
+  }
+  const std::vector<double>& errors = proof.assumed->from_block;
+  for (std::size_t block = 0; block < errors.size(); ++block) {
+    if (rigor::certainly_less(Interval(widened(errors[block])), target)) {
+      return static_cast<double>(block * (proof.gains->samples() / proof.gains->blocks()));
+    }
+  }
+  return INFINITY;
+}
+
+std::optional<ProvedSets> prove_by_gains(const SetQuestion& question) {
+  constexpr std::size_t kBlocks = 64;
+  constexpr double kTail = 1e-8;
+  constexpr std::size_t kMostSamples = 1U << 20U;
+  const Interval& band = question.whole_band;
+  constexpr double kRoundedPi = 3.142;  // somebody may write pi with a few digits
+  if (!question.allows_gains || question.tracker.recursion->samples != 2 ||
+      question.tracker.filter != nullptr || !(std::max(band.upper(), -band.lower()) <= kRoundedPi)) {
+    return std::nullopt;
+  }
+  // At one frequency, a little more shows how the steady state depends on it.
+  const double width = std::max(band.upper() - band.lower(), 1e-3);
+  const auto steady = proposed_steady_state(question.tone, band.lower(), band.lower() + width);
+  if (!steady) {
+    return std::nullopt;
+  }
+  try {
+    LoopNetwork network = loop_network(question.tracker, *steady, band);
+    const std::optional<linear::RadiusBounds> radius = linear::spectral_radius_bounds(network.a);
+    if (radius && radius->lower > 1.0) {
+      return unstable({*steady, radius, std::nullopt, std::nullopt});
+    }
+    const auto samples = linear::proposed_horizon(network.a, kBlocks, kTail, kMostSamples);
+    std::optional<GainBounds> gains;
+    if (samples) {
+      gains = GainBounds::make(std::move(network), *samples, kBlocks);
+    }
+    if (!gains || !gains->bounds({})) {
+      return std::nullopt;
+    }
+    const double half_distance = half_distance_to_false_lock(question.tracker, band);
+    ProvedSets sets = GainSets(question, *gains, half_distance).all();
+    LoopDisturbance assumed{question.noise, question.slew, {}};
+    for (const Interval& each : question.deviations) {
+      assumed.start.push_back(each.upper());
+    }
+    sets.gains = GainProof{*steady, radius, *gains, gains->bounds(assumed)};
+    return sets;
+  } catch (const NoFrame&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace veritrack::model

@@ -1,0 +1,83 @@
+#include "certificates/model/loop_stability.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "analysis/model/gain/loop_network.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/spectral_radius.hpp"
+#include "certificates/model/model_sets.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+/// The largest multiplier of the linear recursion, with another value of a parameter; empty where it has no
+/// steady state.
+std::optional<double> radius_with(ModelTables tables, std::size_t parameter, double value) {
+  tables.model.parameters[parameter].formula.text = fmt::format("{:.17g}", value);
+  const Model model = make_model(tables.model, tables.assume.signal);
+  const model::TrackedTone tone = proposed_tone(model, tables.assume);
+  const rigor::Interval band = band_of(tables.assume);
+  const double omega = rigor::midpoint(band);
+  const auto steady = model::proposed_steady_state(tone, omega, omega + 1e-3);
+  if (!steady) {
+    return std::nullopt;
+  }
+  const rigor::NearestRounding nearest;
+  Eigen::VectorXd state(tone.step.states());
+  for (std::size_t i = 0; i < steady->size(); ++i) {
+    state(static_cast<Eigen::Index>(i)) = (*steady)[i].constant + (*steady)[i].per_frequency * omega;
+  }
+  const Eigen::MatrixXd slope =
+      tone.step.jacobian(state, model::samples_of(tone.signal, tone.amplitude, omega)).leftCols(state.size());
+  return rigor::spectral_radius(slope);
+}
+
+/// Between a stable and an unstable value.
+double crossing(const ModelTables& tables, std::size_t parameter, double stable, double unstable) {
+  constexpr int kSteps = 30;
+  for (int i = 0; i < kSteps; ++i) {
+    const double middle = std::sqrt(stable * unstable);
+    const auto radius = radius_with(tables, parameter, middle);
+    (radius && *radius < 1.0 ? stable : unstable) = middle;
+  }
+  return stable;
+}
+
+}  // namespace
+
+std::vector<StabilityLimit> stability_limits(const ModelTables& tables) {
+  constexpr double kFactor = 1.25;
+  constexpr int kSteps = 31;  // to a factor of 1000
+  std::vector<StabilityLimit> limits;
+  const Model model = make_model(tables.model, tables.assume.signal);
+  for (std::size_t i = 0; i < tables.model.parameters.size(); ++i) {
+    const double value = model.constants[i].nearest;
+    if (!(value > 0.0)) {
+      continue;
+    }
+    double last_down = value;
+    double last_up = value;
+    for (int step = 0; step < kSteps; ++step) {
+      const double down = last_down / kFactor;
+      const double up = last_up * kFactor;
+      const auto below = radius_with(tables, i, down);
+      const auto above = radius_with(tables, i, up);
+      const bool is_below = below && *below < 1.0;
+      if (is_below || (above && *above < 1.0)) {
+        limits.push_back({tables.model.parameters[i].name.text, value,
+                          is_below ? crossing(tables, i, down, last_down) : crossing(tables, i, up, last_up),
+                          is_below});
+        break;
+      }
+      last_down = down;
+      last_up = up;
+    }
+  }
+  return limits;
+}
+
+}  // namespace veritrack::certificates

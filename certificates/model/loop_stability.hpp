@@ -1,0 +1,23 @@
+// The values of parameters at which an unstable loop becomes stable. Not proved.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certificates/model/model_design.hpp"
+
+namespace veritrack::certificates {
+
+/// A parameter alone, the others as they are: the loop is stable on one side of this value.
+struct StabilityLimit {
+  std::string parameter;
+  double value = 0.0;  ///< of the design
+  double limit = 0.0;  ///< nearest to it
+  bool is_stable_below = false;
+};
+
+/// For each parameter that is a number or a formula of its own: within a factor of 1000. Parameters without a
+/// limit are left out. Needs the upward rounding mode.
+[[nodiscard]] std::vector<StabilityLimit> stability_limits(const ModelTables& tables);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,183 @@
+#include "certificates/model/markdown_model_gains.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "analysis/model/gain/gain_attack.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/model/loop_stability.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "certificates/sets/frequency_units.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using model::ProvedSet;
+using rigor::Direction;
+using rigor::to_decimal;
+
+/// One line for each cause: what an engineer can improve.
+std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions& assume,
+                         const FrequencyUnits& units) {
+  const model::ErrorBudget& budget = bounds.budget;
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& cause, double part) {
+    if (part > 0.0) {
+      rows.push_back({cause, units.at_most(part), fmt::format("{:.3g} %", 100.0 * part / bounds.long_run)});
+    }
+  };
+  add(fmt::format("noise of at most {}", assume.noise.text), budget.noise);
+  add(fmt::format("slew of at most {}", slew_words(assume.slew)), budget.slew);
+  add("curvature of the loop's functions at these errors", budget.remainders);
+  add("bias of the steady state, and the rounding of the certificate", budget.steady_state);
+  rows.push_back({"together", units.at_most(bounds.long_run), "100 %"});
+  return "The frequency error in the long run, by cause (each at most; they are worst cases of the same "
+         "sample):\n\n" +
+         markdown::table({"Cause", "Frequency error", "Share"}, rows) + "\n";
+}
+
+std::string limits_table(const ModelSets& sets, const FrequencyUnits& units) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& what, const std::string& limit, const ProvedSet& set) {
+    rows.push_back({what, limit, units.at_most(set.frequency_error)});
+  };
+  if (sets.noise && sets.noise->is_proved() && sets.noise->tubes.noise > 0.0) {
+    add("noise, at a constant frequency",
+        to_decimal(sets.noise->tubes.noise, 4, Direction::down) + " signal units", *sets.noise);
+  }
+  if (sets.slew && sets.slew->is_proved() && sets.slew->tubes.slew > 0.0) {
+    add("slew, without noise", units.slew(sets.slew->tubes.slew), *sets.slew);
+  }
+  if (sets.starts.reach > 0.0) {
+    add("frequency error at the start, without noise", units.at_least(sets.starts.reach), sets.starts);
+  }
+  return rows.empty()
+             ? ""
+             : "The most of each that is proved to be tolerated alone:\n\n" +
+                   markdown::table({"Disturbance", "At most", "Frequency error for ever, at most"}, rows) +
+                   "\n";
+}
+
+std::string steady_state_table(const model::GainProof& proof, const Model& model) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < proof.steady.size(); ++i) {
+    const model::SteadyValue& each = proof.steady[i];
+    std::string value = each.turns != 0 ? (each.turns == 1 ? "phi" : fmt::format("{} phi", each.turns)) : "";
+    const auto add = [&](double number, const std::string& unit) {
+      if (number != 0.0) {
+        value += fmt::format("{}{:.6g}{}",
+                             value.empty() ? (number < 0.0 ? "-" : "") : (number < 0.0 ? " - " : " + "),
+                             std::fabs(number), unit);
+      }
+    };
+    if (std::fabs(each.per_frequency) == 1.0) {
+      value += each.per_frequency < 0.0 ? (value.empty() ? "-omega" : " - omega")
+                                        : (value.empty() ? "omega" : " + omega");
+    } else {
+      add(each.per_frequency, " omega");
+    }
+    add(each.constant, "");
+    rows.push_back({"`" + model.states[i] + "`", "`" + (value.empty() ? "0" : value) + "`"});
+  }
+  return "The steady state after a sample at the phase phi, at the frequency omega in rad/sample (all digits "
+         "are "
+         "in `certificate.json`):\n\n" +
+         markdown::table({"State", "Is"}, rows) + "\n";
+}
+
+/// Of an unstable loop: what would make it stable.
+std::string stability_text(const Certificate& certificate) {
+  std::string text =
+      "This loop is unstable: errors grow, however small they are at first, and no bound is valid for "
+      "ever.\n\n";
+  std::vector<std::vector<std::string>> rows;
+  for (const StabilityLimit& limit : stability_limits(model_tables(certificate.design))) {
+    rows.push_back({"`" + limit.parameter + "`", fmt::format("{:.6g}", limit.value),
+                    fmt::format("{} {:.4g}", limit.is_stable_below ? "below" : "above", limit.limit)});
+  }
+  if (!rows.empty()) {
+    text += "*Computed, not proved:* one parameter alone would make it stable, the others as they are:\n\n" +
+            markdown::table({"Parameter", "Is", "Stable"}, rows) + "\n";
+  }
+  return text;
+}
+
+/// What a simulation reaches of the bound in the long run.
+std::string attack_text(const ModelSets& sets, const Model& model, const ModelAssumptions& assume,
+                        const FrequencyUnits& units) {
+  const model::GainProof& proof = *sets.gains;
+  const rigor::Interval band = band_of(assume);
+  const double noise = assume.noise.value.lower();
+  const double slew = slew_of(assume).lower();
+  if (!(noise > 0.0 || slew > 0.0) || !proof.assumed) {
+    return "";
+  }
+  constexpr std::size_t kMostSamples = 200'000;
+  const double reached = model::attack_loop(proposed_tone(model, assume), proof.steady, rigor::midpoint(band),
+                                            noise, slew, std::min(proof.gains->samples(), kMostSamples));
+  return fmt::format(
+      "*Simulated, not proved:* the noise and slew that add up most to first order reach a frequency error "
+      "of "
+      "{:.3g} rad/sample{}: {:.2f} of the certified bound in the long run.\n\n",
+      reached, units.has_hertz() ? fmt::format(" ({:.3g} Hz)", units.drawn(reached)) : "",
+      reached / proof.assumed->long_run);
+}
+
+}  // namespace
+
+std::string model_gains_section(const Certificate& certificate, const Model& model,
+                                const MarkdownOptions& /*options*/) {
+  const ModelAssumptions& assume = model_tables(certificate.design).assume;
+  const ModelSets& sets = model_sets(certificate);
+  const model::GainProof& proof = *sets.gains;
+  const FrequencyUnits units(assume.sample_rate);
+  std::string text =
+      "## The errors of this loop\n\nThe loop does not depend on the phase at which its signal begins: with "
+      "angles measured from the phase of the signal it has one steady state, and its errors obey a linear "
+      "recursion up to remainders that are bounded in closed form. Each bound is the sum of the worst that "
+      "every "
+      "earlier sample can contribute.\n\n";
+  if (!proof.gains) {
+    text += stability_text(certificate);
+  } else if (proof.assumed) {
+    text += budget_table(*proof.assumed, assume, units);
+    text += attack_text(sets, model, assume, units);
+  } else if (!sets.assumed->is_proved()) {
+    text +=
+        "For the assumed noise and slew no bound was proved: the errors may leave the range in which the "
+        "loop's functions are nearly linear.\n\n";
+  }
+  return text + limits_table(sets, units) + steady_state_table(proof, model);
+}
+
+std::string gains_coverage_section(const ModelTables& tables) {
+  return fmt::format(
+      "## What this certificate covers, and what it does not\n\n"
+      "- Covered: the recursion above in exact arithmetic, for every noise within the assumed bound, every "
+      "phase "
+      "and every frequency that a statement names.\n"
+      "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
+      "not say, such as resets, lock detectors and limits that act.\n"
+      "- The amplitude {}, and the signal has no other components. What else is in the samples must fit into "
+      "the "
+      "noise.\n"
+      "- *The steady state of the certificate* is the table above: the state in which the loop stays without "
+      "noise, up to rounding. *A certified invariant set* is the set of all states that the loop can reach "
+      "from "
+      "there, or from the starts that a statement names.\n"
+      "- UNDECIDED refutes nothing.\n"
+      "- The proof is in `docs/gain-proof.md` of the program's sources. Every bound was computed with "
+      "outward "
+      "rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
+      tables.assume.one_amplitude ? "is exactly the assumed one"
+      : tables.assume.constant_amplitude
+          ? "is constant and some number of the assumed range"
+          : "of every sample is in the assumed range and may be another one at each "
+            "sample");
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,19 @@
+// certificate.md of a loop that is certified by gains: its error budget, its limits, and what is covered.
+#pragma once
+
+#include <string>
+
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/markdown.hpp"
+#include "certificates/model/model.hpp"
+
+namespace veritrack::certificates {
+
+/// Needs the upward rounding mode, and model_sets(certificate).gains.
+[[nodiscard]] std::string model_gains_section(const Certificate& certificate, const Model& model,
+                                              const MarkdownOptions& options);
+
+/// The section on what is covered.
+[[nodiscard]] std::string gains_coverage_section(const ModelTables& tables);
+
+}  // namespace veritrack::certificates

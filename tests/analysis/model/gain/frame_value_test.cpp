@@ -1,0 +1,186 @@
+#include "analysis/model/gain/frame_value.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "analysis/rigor/rounding.hpp"
+#include "tests/support/random.hpp"
+
+namespace veritrack::model {
+namespace {
+
+using rigor::Interval;
+using std::acos, std::asin, std::atan, std::atan2, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tan;
+
+/// The operands of a formula: two states (an angle, a number), two samples and two constants.
+template <typename Scalar>
+struct Operands {
+  Scalar theta, w, y1, y2, k, l;
+};
+
+constexpr double kK = 0.3;
+constexpr double kL = 0.7;
+constexpr double kAmplitude = 1.25;
+
+/// A frame at some frequencies, with the steady state theta = phi + omega, w = 2 omega.
+struct Setting {
+  Interval band = Interval::from_bounds(0.2, 0.2000001);
+  Frame frame{Interval(kAmplitude), band, 2};
+  Operands<FrameValue> values{
+      frame.state(0, true, 1, 0.0, 1.0), frame.state(1, false, 0, 0.0, 2.0), frame.sample(0), frame.sample(1),
+      frame.constant(0, Interval(kK)),   frame.constant(1, Interval(kL))};
+};
+
+/// Of the components, for deviations of this size: of noise first, because forms depend on it.
+std::vector<double> sizes_of(const Frame& frame, double deviation, double noise) {
+  std::vector<double> sizes(64, 0.0);
+  for (const bool is_remainder : {false, true}) {
+    for (const FrameInput& input : frame.inputs()) {
+      if (input.is_remainder != is_remainder) {
+        continue;
+      }
+      std::vector<double> bounds;
+      for (const FrameLine& form : frame.forms()) {
+        bounds.push_back(0.0);
+        for (const Interval& each : form.states) {
+          bounds.back() += rigor::magnitude(each) * deviation;
+        }
+        for (const auto& [component, each] : form.inputs) {
+          bounds.back() += rigor::magnitude(each) * sizes[static_cast<std::size_t>(component)];
+        }
+      }
+      const double size = is_remainder ? input.at_bounds(bounds) : input.at_noise(noise);
+      std::fill_n(sizes.begin() + input.first, input.components, size);
+    }
+  }
+  return sizes;
+}
+
+/// Each deviation and each noise stays within the linear form and the sizes of its inputs.
+template <typename Formula>
+void check(const Formula& formula, double deviation, double noise) {
+  const rigor::UpwardRounding upward;
+  Setting setting;
+  const FrameLine line = setting.frame.line_of(formula(setting.values));
+  CHECK(line.turns == 0);
+  const std::vector<double> sizes = sizes_of(setting.frame, deviation, noise);
+  test::Random random(37004);
+  for (std::int64_t trial = 0; trial < test::effort(300); ++trial) {
+    const double omega = setting.band.lower();
+    const double phi = random.uniform(0.0, 6.0);
+    const double off_theta = deviation * random.uniform(-1.0, 1.0);
+    const double off_w = deviation * random.uniform(-1.0, 1.0);
+    const std::complex<double> sample =
+        std::polar(kAmplitude, phi + omega) +
+        std::polar(noise * std::sqrt(random.uniform()), random.uniform(0.0, 7.0));
+    const double value = formula(
+        Operands<double>{phi + omega + off_theta, 2.0 * omega + off_w, sample.real(), sample.imag(), kK, kL});
+    const auto weight = [&](std::size_t state) {
+      return line.states.empty() ? 0.0 : rigor::midpoint(line.states[state]);
+    };
+    const double linear = rigor::midpoint(line.constant) + rigor::midpoint(line.per_frequency) * omega +
+                          weight(0) * off_theta + weight(1) * off_w;
+    double room = 1e-9;
+    for (const auto& [component, each] : line.inputs) {
+      room += rigor::magnitude(each) * sizes[static_cast<std::size_t>(component)];
+    }
+    CAPTURE(off_theta);
+    CHECK(std::fabs(value - linear) <= room);
+  }
+}
+
+const auto in_phase = [](const auto& v) { return v.y1 * cos(v.theta) + v.y2 * sin(v.theta); };
+const auto quadrature = [](const auto& v) { return v.y2 * cos(v.theta) - v.y1 * sin(v.theta); };
+
+TEST_CASE("every formula stays within its line, its noise and its remainders") {
+  check([](const auto& v) { return quadrature(v); }, 0.5, 0.4);
+  check([](const auto& v) { return v.k * quadrature(v) + v.l * in_phase(v); }, 0.5, 0.4);
+  check([](const auto& v) { return atan2(quadrature(v), in_phase(v)); }, 1.0, 0.9);
+  check([](const auto& v) { return atan2(v.k * quadrature(v), v.k * in_phase(v)); }, 1.0, 0.9);
+  check([](const auto& v) { return atan(quadrature(v) / in_phase(v)); }, 0.5, 0.5);
+  check([](const auto& v) { return quadrature(v) / in_phase(v); }, 0.4, 0.2);
+  check(
+      [](const auto& v) {
+        return quadrature(v) / sqrt(in_phase(v) * in_phase(v) + quadrature(v) * quadrature(v));
+      },
+      0.5, 0.4);
+  check([](const auto& v) { return in_phase(v) * quadrature(v); }, 0.5, 0.3);
+  check([](const auto& v) { return v.y1 * v.y1 + v.y2 * v.y2; }, 0.5, 0.3);
+  check([](const auto& v) { return v.w * quadrature(v); }, 0.3, 0.3);
+  check([](const auto& v) { return v.w * v.w + v.k; }, 0.3, 0.0);
+  check([](const auto& v) { return exp(v.w) / (v.l + v.w); }, 0.2, 0.0);
+  check([](const auto& v) { return sqrt(v.w) + log(v.w) + atan(v.w) + tan(v.w); }, 0.1, 0.0);
+  check([](const auto& v) { return asin(v.w) - acos(v.w) + sin(v.w) * v.k; }, 0.1, 0.0);
+  check(
+      [](const auto& v) { return atan2(sin(atan2(v.y2, v.y1) - v.theta), cos(atan2(v.y2, v.y1) - v.theta)); },
+      1.0, 0.5);
+}
+
+TEST_CASE("an arc tangent of both parts has no remainder, and a limit of half a turn") {
+  const rigor::UpwardRounding upward;
+  Setting setting;
+  const FrameLine line = setting.frame.line_of(atan2(quadrature(setting.values), in_phase(setting.values)));
+  CHECK(line.states[0] == Interval(-1.0));
+  CHECK(line.states[1] == Interval(0.0));
+  REQUIRE(setting.frame.limits().size() == 1);
+  CHECK(setting.frame.limits()[0].room <= std::numbers::pi);
+  CHECK(setting.frame.limits()[0].room > 3.14159);
+  REQUIRE(setting.frame.inputs().size() == 1);
+  CHECK_FALSE(setting.frame.inputs()[0].is_remainder);
+  CHECK(setting.frame.inputs()[0].at_noise(0.5 * kAmplitude) >= std::asin(0.5));
+  CHECK(setting.frame.inputs()[0].at_noise(0.5 * kAmplitude) <= std::asin(0.5) * (1.0 + 1e-15));
+  CHECK(std::isinf(setting.frame.inputs()[0].at_noise(kAmplitude)));
+}
+
+TEST_CASE("the squared length of both channels does not depend on the angle") {
+  const rigor::UpwardRounding upward;
+  Setting setting;
+  const auto& v = setting.values;
+  const FrameValue length = sqrt(in_phase(v) * in_phase(v) + quadrature(v) * quadrature(v));
+  REQUIRE(length.kind() == FrameValue::Kind::waves);
+  REQUIRE(length.waves().size() == 1);
+  CHECK(length.waves().begin()->first == Monomial{1, 0, {}, {}});
+  CHECK(length.waves().begin()->second.real == 1.0);
+}
+
+template <typename Formula>
+void check_refused(const Formula& formula) {
+  const rigor::UpwardRounding upward;
+  Setting setting;
+  CHECK_THROWS_AS((void)setting.frame.line_of(formula(setting.values)), NoFrame);
+}
+
+TEST_CASE("what depends on the phase, or on the turns of an angle, is refused") {
+  check_refused([](const auto& v) { return v.y1 * cos(v.theta); });
+  check_refused([](const auto& v) { return v.y2 * cos(v.theta) - v.k * v.y1 * sin(v.theta); });
+  check_refused([](const auto& v) { return v.y1 + v.k; });
+  check_refused([](const auto& v) { return sin(v.theta); });
+  check_refused([](const auto& v) { return v.k * v.theta; });
+  check_refused([](const auto& v) { return v.theta * v.theta; });
+  check_refused([](const auto& v) { return exp(v.theta); });
+  check_refused([](const auto& v) { return quadrature(v) * v.theta; });
+  check_refused([](const auto& v) { return atan2(quadrature(v), v.k * in_phase(v)); });
+  check_refused([](const auto& v) { return atan(v.y2 / v.y1); });
+  check_refused([](const auto& v) { return v.w / (v.w - v.w); });
+  check_refused([](const auto& v) { return stays_within(v.w, v.k + v.l, v.l); });
+}
+
+TEST_CASE("constants with the same enclosure are not the same number") {
+  const rigor::UpwardRounding upward;
+  Frame frame(Interval(1.0), Interval(0.2), 1);
+  const Interval same = Interval::from_bounds(0.1, 0.1000001);
+  const FrameValue theta = frame.state(0, true, 1, 0.0, 1.0);
+  const FrameValue k = frame.constant(0, same);
+  const FrameValue l = frame.constant(1, same);
+  const FrameValue y1 = frame.sample(0);
+  const FrameValue y2 = frame.sample(1);
+  CHECK_THROWS_AS((void)frame.line_of(k * (y2 * cos(theta)) - l * (y1 * sin(theta))), NoFrame);
+  CHECK_NOTHROW((void)frame.line_of(k * (y2 * cos(theta)) - k * (y1 * sin(theta))));
+}
+
+}  // namespace
+}  // namespace veritrack::model

@@ -1,0 +1,153 @@
+#include "analysis/model/gain/gain_bounds.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "analysis/model/gain/frame_value.hpp"
+#include "analysis/model/gain/gain_attack.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "tests/analysis/model/gain_examples.hpp"
+#include "tests/support/random.hpp"
+
+namespace veritrack::model {
+namespace {
+
+using rigor::Interval;
+using test::Detector;
+
+const Interval kBand = Interval::from_bounds(-1.0, 1.0);
+
+/// The loop with its bounds.
+struct Bounded {
+  test::TwoChannelExample loop;
+  std::vector<SteadyValue> steady;
+  GainBounds gains;
+
+  Bounded(double kp, double ki, Detector detector)
+      : loop(test::two_channel_loop(kp, ki, detector)),
+        steady(proposed_steady_state(loop.tone, -1.0, 1.0).value()),
+        gains(made(loop, steady)) {}
+
+  static GainBounds made(const test::TwoChannelExample& loop, const std::vector<SteadyValue>& steady) {
+    const rigor::UpwardRounding upward;
+    return GainBounds::make(loop_network(loop.model, steady, kBand), 4096, 64).value();
+  }
+};
+
+TEST_CASE("the steady state and the matrix of a loop are those on paper") {
+  const rigor::UpwardRounding upward;
+  const Bounded made(0.2, 0.01, Detector::arctangent2);
+  CHECK(made.steady[0].turns == 1);
+  CHECK(made.steady[0].constant == 0.0);
+  CHECK(made.steady[0].per_frequency == 1.0);
+  CHECK(made.steady[1].per_frequency == 1.0);
+  const std::vector<linear::Row>& a = made.gains.network().a;
+  CHECK(a[0][0].lower() <= 0.8);
+  CHECK(a[0][0].upper() >= 0.8);
+  CHECK(a[0][1] == Interval(1.0));
+  CHECK(a[1][0] == Interval(-0.01));
+  CHECK(a[1][1] == Interval(1.0));
+  CHECK(rigor::magnitude(made.gains.network().bias) == 0.0);
+  REQUIRE(made.gains.network().frequency_state.has_value());
+  CHECK(made.gains.network().frequency_state->first == 1);
+}
+
+TEST_CASE("noise that is tolerated: the gain to the phase, in long double, and the limit of the detector") {
+  const rigor::UpwardRounding upward;
+  const Bounded made(0.2, 0.01, Detector::arctangent2);
+  // e = noise angle - error of the phase: |c A^k b| for the phase, plus the noise of the same sample.
+  long double theta = 0.2L;
+  long double w = 0.01L;
+  long double gain = 1.0L;
+  for (int k = 0; k < 100000; ++k) {
+    gain += std::fabs(theta);
+    const long double next = 0.8L * theta + w;
+    w += -0.01L * theta;
+    theta = next;
+  }
+  const auto noise_at = [&](long double angle) { return static_cast<double>(std::sin(angle)); };
+  const long double limit = std::numbers::pi_v<long double> / gain;
+  if (limit < 1.5L) {
+    CHECK(made.gains.bounds({noise_at(limit * 0.999L), 0.0, {}}).has_value());
+    CHECK_FALSE(made.gains.bounds({noise_at(limit * 1.001L), 0.0, {}}).has_value());
+  }
+  CHECK_FALSE(made.gains.bounds({1.0, 0.0, {}}).has_value());
+  CHECK_FALSE(made.gains.bounds({NAN, 0.0, {}}).has_value());
+  CHECK_FALSE(made.gains.bounds({INFINITY, 0.0, {}}).has_value());
+}
+
+TEST_CASE("no attack passes a bound, and it comes near where the loop is nearly linear") {
+  for (const Detector detector :
+       {Detector::arctangent2, Detector::arctangent, Detector::sine, Detector::normalised}) {
+    const Bounded made(0.1, 0.004, detector);
+    for (const double noise : {0.02, 0.2}) {
+      for (const double slew : {0.0, 1e-5}) {
+        const rigor::UpwardRounding upward;
+        const auto bounds = made.gains.bounds({noise, slew, {}});
+        REQUIRE(bounds.has_value());
+        for (const double omega : {-0.7, 0.0, 0.3}) {
+          const double reached = attack_loop(made.loop.tone, made.steady, omega, noise, slew, 4096);
+          CHECK(reached <= bounds->for_ever * (1.0 + 1e-11));  // it is reached, and a run in doubles rounds
+          CHECK(reached >= 0.8 * bounds->long_run);
+        }
+        CHECK(bounds->long_run <= bounds->for_ever);
+        CHECK(made.gains.linear_error(noise, slew) <= bounds->long_run * (1.0 + 1e-9));
+        const ErrorBudget& budget = bounds->budget;
+        CHECK(budget.noise + budget.slew + budget.remainders + budget.steady_state >=
+              bounds->long_run * (1 - 1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("runs from random starts with random noise stay within the bounds of every block") {
+  const Bounded made(0.1, 0.004, Detector::sine);
+  const std::vector<double> start{0.4, 0.01};
+  const double noise = 0.1;
+  std::optional<LoopBounds> bounds;
+  {
+    const rigor::UpwardRounding upward;
+    bounds = made.gains.bounds({noise, 0.0, start});
+  }
+  REQUIRE(bounds.has_value());
+  test::Random random(37005);
+  for (std::int64_t run = 0; run < test::effort(200); ++run) {
+    const double omega = random.uniform(-1.0, 1.0);
+    double phase = random.uniform(0.0, 6.0);
+    Eigen::Vector2d state(phase + omega + (random.below(2) == 0 ? 0.4 : -0.4),
+                          omega + (random.below(2) == 0 ? 0.01 : -0.01));
+    for (int k = 0; k < 4096; ++k) {
+      CHECK(std::fabs(state(1) - omega) <= bounds->from_block[static_cast<std::size_t>(k / 64)]);
+      phase += omega;
+      const std::complex<double> sample =
+          std::polar(1.0, phase) + std::polar(noise, random.uniform(0.0, 7.0));
+      state = made.loop.tone.step.next(state, Eigen::Vector2d(sample.real(), sample.imag()));
+    }
+  }
+  CHECK(bounds->from_block.front() == bounds->for_ever);
+  CHECK(bounds->from_block.back() < 0.7 * bounds->for_ever);
+}
+
+TEST_CASE("a wrong steady state makes bounds longer by what it is wrong, or none") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.1, 0.004, Detector::sine));
+  std::vector<SteadyValue> steady = proposed_steady_state(loop.tone, -1.0, 1.0).value();
+  steady[1].constant += 1e-3;
+  const GainBounds off = GainBounds::make(loop_network(loop.model, steady, kBand), 4096, 64).value();
+  const auto bounds = off.bounds({});
+  REQUIRE(bounds.has_value());
+  CHECK(bounds->for_ever > 1e-3);
+  steady[0].turns = 2;
+  CHECK_THROWS_AS((void)loop_network(loop.model, steady, kBand), NoFrame);
+}
+
+TEST_CASE("one channel, or a step that depends on the phase, has no network") {
+  const rigor::UpwardRounding upward;
+  const test::Example one(test::phase_locked_loop());
+  CHECK_THROWS_AS((void)loop_network(one.model, {{0, 0.0, 1.0}, {1, 0.0, 0.0}}, kBand), NoFrame);
+}
+
+}  // namespace
+}  // namespace veritrack::model

@@ -1,0 +1,77 @@
+// Loops of two channels, for the tests of gains.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "tests/analysis/model/tube_examples.hpp"
+
+namespace veritrack::test {
+
+enum class Detector {
+  arctangent2,  ///< atan2(q, i)
+  arctangent,   ///< atan(q / i)
+  sine,         ///< q
+  normalised    ///< q / sqrt(i^2 + q^2)
+};
+
+/// e of the samples turned back by theta; theta' = theta + w + kp e, w' = w + ki e. States theta, w.
+inline ExampleTracker two_channel_loop(double kp, double ki, Detector detector) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 2;
+  r.states = 2;
+  r.samples = 2;
+  r.is_angle = {true, false};
+  StraightLineProgram step(6);
+  const int proportional = 0, integral = 1, theta = 2, w = 3, y1 = 4, y2 = 5;
+  const int c = step.append(Operation::cos, theta);
+  const int s = step.append(Operation::sin, theta);
+  const auto product = [&](int a, int b) { return step.append(Operation::multiply, a, b); };
+  const int i = step.append(Operation::add, product(y1, c), product(y2, s));
+  const int q = step.append(Operation::subtract, product(y2, c), product(y1, s));
+  int e = q;
+  if (detector == Detector::arctangent2) {
+    e = step.append(Operation::atan2, q, i);
+  } else if (detector == Detector::arctangent) {
+    e = step.append(Operation::atan, step.append(Operation::divide, q, i));
+  } else if (detector == Detector::normalised) {
+    const int squares = step.append(Operation::add, product(i, i), product(q, q));
+    e = step.append(Operation::divide, q, step.append(Operation::sqrt, squares));
+  }
+  step.add_result(
+      step.append(Operation::add, step.append(Operation::add, theta, w), product(proportional, e)));
+  step.add_result(step.append(Operation::add, w, product(integral, e)));
+  r.step = std::move(step);
+  r.frequency = frequency_of_state(2, 2, 1);
+  example.constants = {kp, ki};
+  example.start = [](double omega) { return std::vector<double>{omega, omega}; };
+  return example;
+}
+
+/// The loop as the verification sees it, on a tone of two channels.
+struct TwoChannelExample {
+  ExampleTracker tracker;
+  StraightLineProgram signal;
+  model::TrackerModel model;
+  model::TrackedTone tone;
+
+  explicit TwoChannelExample(ExampleTracker example)
+      : tracker(std::move(example)),
+        signal(test::tone(tracker.recursion.constants, true)),
+        tone(tone_of(tracker, true)) {
+    model.recursion = &tracker.recursion;
+    model.signal = &signal;
+    for (const double constant : tracker.constants) {
+      model.constants.emplace_back(constant);
+    }
+    model.amplitude = rigor::Interval(1.0);
+  }
+  TwoChannelExample(const TwoChannelExample&) = delete;
+  TwoChannelExample& operator=(const TwoChannelExample&) = delete;
+  TwoChannelExample(TwoChannelExample&&) = delete;
+  TwoChannelExample& operator=(TwoChannelExample&&) = delete;
+  ~TwoChannelExample() = default;
+};
+
+}  // namespace veritrack::test

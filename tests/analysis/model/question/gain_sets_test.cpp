@@ -1,0 +1,107 @@
+#include "analysis/model/question/gain_sets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "analysis/rigor/rounding.hpp"
+#include "tests/analysis/model/gain_examples.hpp"
+
+namespace veritrack::model {
+namespace {
+
+using rigor::Interval;
+using test::Detector;
+
+SetQuestion question_of(const test::TwoChannelExample& loop) {
+  SetQuestion question{.tone = loop.tone, .tracker = loop.model};
+  question.whole_band = Interval::from_bounds(-0.5, 0.5);
+  question.allows_gains = true;
+  question.noise = 0.05;
+  question.largest_noise = true;
+  question.largest_slew = true;
+  question.is_thorough = true;
+  return question;
+}
+
+TEST_CASE("a loop of two channels is answered over a band through 0, with the noise of its gain") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));
+  const auto sets = prove_by_gains(question_of(loop));
+  REQUIRE(sets.has_value());
+  REQUIRE(sets->gains.has_value());
+  REQUIRE(sets->assumed.has_value());
+  CHECK(sets->assumed->is_proved());
+  REQUIRE(sets->noise.has_value());
+  CHECK(sets->noise->tubes.noise > 0.6);
+  CHECK(sets->noise->tubes.noise < 0.62);
+  REQUIRE(sets->slew.has_value());
+  CHECK(sets->slew->tubes.slew > 0.0);
+  CHECK(sets->starts.reach > 0.0);
+  CHECK(sets->starts.ripple < 1e-9);
+  REQUIRE(sets->linear.has_value());
+  CHECK(sets->assumed->settled_error <= 1.01 * sets->linear->disturbed);
+  CHECK(samples_below(*sets->gains, Interval(sets->assumed->settled_error * 1.01)) == 0.0);
+  CHECK(std::isinf(samples_below(*sets->gains, Interval(sets->assumed->settled_error * 0.5))));
+}
+
+TEST_CASE("assumed starts: inside, or the share of them that is") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));
+  SetQuestion question = question_of(loop);
+  question.assumes_start = true;
+  question.deviations = {Interval(0.3), Interval(0.001)};
+  const auto near = prove_by_gains(question);
+  REQUIRE(near.has_value());
+  CHECK(near->assumed->start_share <= 1.0);
+  CHECK(near->assumed->frequency_error > near->assumed->settled_error);
+  CHECK(samples_below(*near->gains, Interval(near->assumed->settled_error * 1.1)) > 0.0);
+  question.deviations = {Interval(30.0), Interval(0.1)};
+  const auto far = prove_by_gains(question);
+  REQUIRE(far.has_value());
+  CHECK(far->assumed->start_share > 1.0);
+  CHECK(far->assumed->is_proved());
+}
+
+TEST_CASE("too much noise is not proved, and what is tolerated is") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));
+  SetQuestion question = question_of(loop);
+  question.noise = 0.9;
+  const auto sets = prove_by_gains(question);
+  REQUIRE(sets.has_value());
+  CHECK_FALSE(sets->assumed->is_proved());
+  CHECK_FALSE(sets->assumed->tubes.reasons.empty());
+  CHECK(sets->noise->tubes.noise > 0.6);
+}
+
+TEST_CASE("an unstable loop is known as such") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(2.1, 0.03, Detector::arctangent2));
+  const auto sets = prove_by_gains(question_of(loop));
+  REQUIRE(sets.has_value());
+  REQUIRE(sets->gains.has_value());
+  REQUIRE(sets->gains->radius.has_value());
+  CHECK(sets->gains->radius->lower > 1.05);
+  CHECK_FALSE(sets->gains->gains.has_value());
+  CHECK_FALSE(sets->starts.is_proved());
+}
+
+TEST_CASE("other questions are left to tubes") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));
+  SetQuestion question = question_of(loop);
+  question.allows_gains = false;
+  CHECK_FALSE(prove_by_gains(question).has_value());
+  question.allows_gains = true;
+  question.whole_band = Interval::from_bounds(0.0, 4.0);
+  CHECK_FALSE(prove_by_gains(question).has_value());
+  const test::Example one(test::phase_locked_loop());
+  SetQuestion other{.tone = test::tone_of(one.tracker), .tracker = one.model};
+  other.whole_band = Interval::from_bounds(0.2, 0.3);
+  other.allows_gains = true;
+  CHECK_FALSE(prove_by_gains(other).has_value());
+}
+
+}  // namespace
+}  // namespace veritrack::model

@@ -1,7 +1,6 @@
 #include "checker/model/gain/frame_value.hpp"
 
-#include <optional>
-#include <utility>
+#include "checker/model/gain/wave_values.hpp"
 
 namespace veritrack::checker {
 

@@ -2,7 +2,9 @@
 // (docs/gain-proof.md, section 2).
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "checker/model/gain/linear_frame.hpp"

@@ -2,19 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "checker/model/gain/gain_kernels.hpp"
 #include "checker/model/gain/gain_network.hpp"
 
 namespace veritrack::checker {
-
-/// A number within `radius` of `middle`. Sums and products of the ends of such numbers are rounded upward by
-/// a margin (gain_bounds.cpp).
-struct WideNumber {
-  double middle = 0.0;
-  double radius = 0.0;
-};
-using WideRow = std::vector<WideNumber>;
 
 /// Bounds on the frequency error of a network, for certain noise, slew and starts.
 class GainErrors {
@@ -43,45 +37,33 @@ class GainErrors {
 class GainBounds {
  public:
   /// `blocks` divides `horizon`. The network must outlive this.
-  GainBounds(const GainNetwork& network, std::size_t horizon, std::size_t blocks);
+  GainBounds(const GainNetwork& network, std::size_t horizon, std::size_t blocks)
+      : network_(&network), kernels_(network, horizon, blocks) {}
 
+  /// Whether the sums over all samples are bounded.
+  [[nodiscard]] bool is_certain() const { return kernels_.is_certain(); }
   /// The bounds for |v| <= noise, |change of omega| <= slew and |xi_0| <= start by state; nothing where they
   /// are not certain.
   [[nodiscard]] std::optional<GainErrors> errors(const Ball& noise, const Ball& slew,
                                                  const std::vector<Ball>& start) const;
 
  private:
-  using Table = std::vector<std::vector<double>>;
   /// What does not change from round to round.
   struct Given {
     Table start;                  ///< T, by form and block
     std::vector<double> outside;  ///< by form: of the inputs that are no remainders
     bool is_known = true;
   };
-  void sum_kernels();
-  [[nodiscard]] bool close_tails();
   [[nodiscard]] Given given(const Ball& noise, const Ball& slew, const std::vector<Ball>& start) const;
-  /// T of the theorem; nothing where it is not certain.
-  [[nodiscard]] std::optional<Table> starts(const std::vector<Ball>& start) const;
   /// The sizes of remainders, by input, where forms are at most `bounds`.
   [[nodiscard]] std::vector<double> sizes(const std::vector<double>& bounds) const;
   /// The bounds of the theorem, by block and form, from such bounds.
   [[nodiscard]] Table next(const Table& bounds, const Given& given) const;
   [[nodiscard]] double in_long_run(std::vector<double> bounds, const Given& given) const;
   [[nodiscard]] bool keeps_limits(const std::vector<double>& bounds) const;
-  /// |row powers B| for an input.
-  [[nodiscard]] double length_of_product(const WideRow& row, std::size_t input) const;
 
   const GainNetwork* network_;
-  std::size_t horizon_, blocks_;
-  std::vector<WideRow> columns_;                           ///< of A, by column
-  std::vector<std::vector<WideRow>> inputs_;               ///< one or two columns of each input
-  std::vector<WideRow> rows_;                              ///< of the forms, then the unit rows
-  std::vector<std::vector<std::vector<double>>> kernels_;  ///< by row, input and block
-  Table defect_;                                           ///< M
-  Table tails_;                                            ///< epsilon, by form and input
-  Table direct_;                                           ///< |d|, by form and input
-  bool is_certain_ = false;
+  GainKernels kernels_;
 };
 
 }  // namespace veritrack::checker

@@ -70,6 +70,18 @@ void add_state(const LinearFrame& frame, const LinearValue& value, const SteadyS
   network.inputs.push_back(std::move(input));
 }
 
+/// Remainders are about forms of inputs that come before them: the induction of the theorem within a sample.
+void require_order(const GainNetwork& network) {
+  for (std::size_t input = 0; input < network.inputs.size(); ++input) {
+    for (const std::size_t form : network.inputs[input].about) {
+      const auto& direct = network.forms[form].direct;
+      if (!direct.empty() && direct.rbegin()->first >= input) {
+        throw NotCovered("a remainder is about what comes after it");
+      }
+    }
+  }
+}
+
 std::vector<FrameValue> frame_states(const std::vector<SteadyState>& steady,
                                      const std::vector<bool>& is_angle) {
   std::vector<FrameValue> states;
@@ -123,6 +135,7 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
     }
     network.inputs.push_back(std::move(entry));
   }
+  require_order(network);
   for (const FrameLimit& limit : frame.limits()) {
     network.limits.push_back({forms.of(limit.about), limit.base, limit.low, limit.high});
   }

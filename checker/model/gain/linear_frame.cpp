@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
-#include "checker/model/formula.hpp"
+#include "checker/model/gain/frame_function.hpp"
 
 namespace veritrack::checker {
 
@@ -32,52 +31,6 @@ void require_plain(const LinearValue& x) {
     throw NotCovered(
         "an angle, or a value that depends on the phase, is used other than in sums, sin and cos");
   }
-}
-
-/// A function and its derivative.
-struct Function {
-  const char* name;
-  Ball (*value)(const Ball&);
-  Ball (*slope)(const Ball&);
-};
-
-Ball slope_of_arcsine(const Ball& x) {
-  return one / sqrt(one - square(x));
-}
-
-const Function& function_of(const std::string& name) {
-  static const std::vector<Function> known{
-      {"sqrt", [](const Ball& x) { return sqrt(x); }, [](const Ball& x) { return half / sqrt(x); }},
-      {"exp", [](const Ball& x) { return exp(x); }, [](const Ball& x) { return exp(x); }},
-      {"log", [](const Ball& x) { return log(x); }, [](const Ball& x) { return one / x; }},
-      {"tan", [](const Ball& x) { return tangent(x); },
-       [](const Ball& x) { return one + square(tangent(x)); }},
-      {"asin", [](const Ball& x) { return arcsine(x); }, [](const Ball& x) { return slope_of_arcsine(x); }},
-      {"acos", [](const Ball& x) { return arccosine(x); },
-       [](const Ball& x) { return -slope_of_arcsine(x); }},
-      {"atan", [](const Ball& x) { return arctangent(x); },
-       [](const Ball& x) { return one / (one + square(x)); }},
-      {"reciprocal", [](const Ball& x) { return one / x; },
-       [](const Ball& x) { return -(one / square(x)); }}};
-  const auto found =
-      std::find_if(known.begin(), known.end(), [&](const Function& f) { return f.name == name; });
-  if (found == known.end()) {
-    throw NotCovered("no rule for the function " + name);
-  }
-  return *found;
-}
-
-/// At least |f(b + d) - f(b) - f'(b) d| for |d| <= bound: the integral of |f'(b + s) - f'(b)|, from above.
-Ball remainder(const Function& f, const Ball& b, const Ball& bound) {
-  constexpr int kCells = 64;
-  const Ball width = bound / Ball(kCells);
-  const Ball slope = f.slope(b);
-  Ball integral;
-  for (int cell = 0; cell < kCells; ++cell) {
-    const Ball s = Ball::hull(width * Ball(cell), width * Ball(cell + 1));
-    integral += max(abs(f.slope(b + s) - slope), abs(f.slope(b - s) - slope)).upper() * width;
-  }
-  return integral;
 }
 
 }  // namespace
@@ -313,14 +266,14 @@ int LinearFrame::quotient(int x, int y) {
 LinearValue LinearFrame::value_of_function(const std::string& name, int x) {
   const LinearValue operand = at(x);
   require_plain(operand);
-  const Function& f = function_of(name);
+  const FrameFunction& f = frame_function(name);
   const Ball b = base(operand);
   LinearValue result;
   result.constant = f.value(b);
   if (!operand.deviations.empty()) {
     add_deviations(result, operand, f.slope(b));
     const std::size_t source = add_input(
-        {nullptr, {x}, [f, b](const std::vector<Ball>& bounds) { return remainder(f, b, bounds.at(0)); }});
+        {nullptr, {x}, [f, b](const std::vector<Ball>& bounds) { return remainder_of(f, b, bounds.at(0)); }});
     result.deviations[source] = {one, zero};
   }
   return result;

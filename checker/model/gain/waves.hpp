@@ -44,21 +44,8 @@ Waves product(const Waves& x, const Waves& y);
 std::optional<int> power_of_length(const Waves& x);
 /// x/|y|^s.
 Waves divided_by_length(const Waves& x, int power);
-/// The same for the same sums only.
+/// The same for the same waves, or sums of waves, only.
+std::string name_of(const Wave& wave);
 std::string name_of(const Waves& x);
-
-/// x + j y = g e^(j quarters pi/2) M, or its conjugate, with a positive g.
-struct TurnedWave {
-  Wave wave;
-  int quarters = 0;
-  bool is_conjugate = false;
-};
-/// Whether x + j y is such a number, with a factor that is certainly not 0.
-std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, const Waves& x);
-/// The value of the argument of x + j y, modulo 2 pi.
-int argument(LinearFrame& frame, const TurnedWave& wave);
-
-/// As a linear value. Throws NotCovered where a wave depends on the phase.
-int linear_value(LinearFrame& frame, const Waves& waves);
 
 }  // namespace veritrack::checker

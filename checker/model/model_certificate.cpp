@@ -1,9 +1,12 @@
 #include "checker/model/model_certificate.hpp"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 
+#include "checker/model/gain/gain_claims.hpp"
+#include "checker/model/gain/gain_evidence.hpp"
 #include "checker/model/gaussian_drift.hpp"
 #include "checker/model/long_run.hpp"
 #include "checker/model/model_claims.hpp"
@@ -115,11 +118,26 @@ std::map<std::string, TubeFamily> verified_sets(const Tree& tubes, const Tracked
   return std::move(read.families);
 }
 
+void verify_gains(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
+                  Verification& result) {
+  Objections objections;
+  if (certificate.find("tubes") != nullptr) {
+    objections.emplace_back("tubes and gains in one certificate");
+  }
+  const std::unique_ptr<Gains> gains = read_gains(
+      certificate.at("gains"), certificate.at("design").at("model"), *model.recursion, design, objections);
+  result.parts.push_back({"gains", objections});
+  const GainClaims claims(certificate, design, model, gains.get());
+  const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
+  check_claims(certificate, claims.required(), check, result);
+}
+
 void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
   const Tree& tree = certificate.at("design");
   Objections objections;
   ModelRecursion recursion(tree.at("model"));
-  const ModelDesign design = read_model_design(tree, recursion, objections);
+  const bool by_gains = certificate.find("gains") != nullptr;
+  const ModelDesign design = read_model_design(tree, recursion, objections, by_gains);
   objections.insert(objections.end(), recursion.objections().begin(), recursion.objections().end());
   if (states_of_tubes(recursion, recursion.filtered() > 0) > kMostStates) {
     objections.emplace_back("too many states");
@@ -132,6 +150,10 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});
   }
   const TrackedModel model{&recursion, design.amplitude, design.amplitude_varies};
+  if (by_gains) {
+    verify_gains(certificate, design, model, result);
+    return;
+  }
   const std::map<std::string, TubeFamily> sets =
       verified_sets(certificate.at("tubes"), model, design, result);
   const ModelClaims claims(certificate, design, model, sets, result.cells);

@@ -14,23 +14,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const std::string kErrorBound = "model/frequency-error-bound";
-const std::string kSettlingTime = "model/settling-time";
-const std::string kLargestNoise = "model/largest-noise";
-const std::string kLargestSlew = "model/largest-slew";
-const std::string kRadius = "model/frequency-error-radius";
-const std::string kBias = "model/bias";
-const std::string kRipple = "model/ripple";
-const std::string kGuarantee = "model/guarantee";
-const std::string kCapture = "model/capture";
-const std::string kCaptureTime = "model/capture-time";
-const std::string kLimits = "model/limits";
-const std::string kSlewLimit = "model/slew-limit";
-const std::string kSteadyState = "model/steady-state";
-const std::string kLosingLock = "model/probability-of-losing-lock";
-const std::string kLock = "model/losing-lock";
-const std::string kLowestSnr = "model/lowest-snr";
-
 /// A start is followed on the amplitude, or the range for each sample, that the tracker has.
 bool is_of_one_amplitude(const TubeFamily* family) {
   return family != nullptr && family->sets.size() == 1 && !family->sets.front().amplitudes;
@@ -43,16 +26,6 @@ bool bound_covariance(const std::map<std::string, TubeFamily>& sets) {
 
 std::size_t first_level(const PhaseTube& /*tube*/) {
   return 0;
-}
-
-/// A decimal that the claim writes: the statement on a value, exactly.
-Ball written(const Tree& claim, const char* name) {
-  constexpr std::size_t kLongest = 40;
-  const std::string& text = claim.at(name).text();
-  if (text.size() > kLongest) {
-    throw Malformed("a decimal of more than 40 characters");
-  }
-  return from_decimal(text);
 }
 
 /// A whole number from 1 to `most` that the claim writes, or 0 where it writes none.
@@ -69,92 +42,20 @@ std::size_t whole_number(const Tree& claim, const char* name, std::size_t most) 
 ModelClaims::ModelClaims(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
                          const std::map<std::string, TubeFamily>& sets, std::int64_t& cells)
     : tree_(&certificate.at("design")),
-      claims_(&certificate.at("claims")),
       design_(&design),
       model_(&model),
       sets_(&sets),
       cells_(&cells),
-      words_(*tree_, std::nullopt, bound_covariance(sets)) {
+      words_(*tree_, std::nullopt, bound_covariance(sets)),
+      required_(certificate, design, deciding_name()) {
   Objections said_before;  // by the design
   units_ = FrequencyWords(tree_->at("assume"), said_before);
-}
-
-const std::string* ModelClaims::named_error(const std::string& id) const {
-  for (const Tree& claim : claims_->elements()) {
-    const Tree* error = claim.at("id").text() == id ? claim.find("frequency_error") : nullptr;
-    if (error != nullptr) {
-      return &error->text();
-    }
-  }
-  return nullptr;
-}
-
-std::string ModelClaims::in_lock(const std::string& id, const std::string& text) const {
-  const std::string* error = named_error(id);
-  return error == nullptr ? std::string() : text + units_.at_most(*error);
 }
 
 bool ModelClaims::is_lock(const TubeFamily& family, const Ball& error, const Part& part) const {
   const Ball half_distance = half_distance_to_false_lock(*model_, part ? part->lowest : design_->lowest,
                                                          part ? part->highest : design_->highest);
   return certainly_less(error, half_distance) && of(family).error_is_at_most(first_level, error);
-}
-
-std::string ModelClaims::short_text(const std::string& id) const {
-  if (id == kErrorBound) {
-    return "the frequency error stays below " + design_->frequency_error_below->text + " for ever";
-  }
-  if (id == kSettlingTime) {
-    return "from sample " + design_->settles_within->text + " on, the frequency error stays below " +
-           design_->settled_below->text;
-  }
-  if (id == kCaptureTime) {
-    return "the tracker is in the set \"" + deciding_name() + "\" of the certificate after at most " +
-           design_->captured_within->text + " samples" +
-           in_lock(id, ", and there the frequency error stays at or below ");
-  }
-  // Read only for claims about lock, because every value that is asked for counts as read.
-  const auto in_set = [&] { return in_lock(id, " in which the frequency error stays at or below "); };
-  if (id == kLargestNoise) {
-    return "the tracker tolerates noise up to " + design_->largest_noise->text +
-           ": a certified invariant set exists" + in_set();
-  }
-  if (id == kLargestSlew) {
-    return "the tracker tolerates a slew up to " + design_->largest_slew->text +
-           ": a certified invariant set exists" + in_set();
-  }
-  if (id == kRadius) {
-    return "a certified invariant set" + in_set() + " contains frequency errors up to " +
-           design_->radius->text + " at every phase";
-  }
-  if (id == kLosingLock) {
-    const std::string exceeding = in_lock(id, ", its frequency error exceeding ");
-    return "the probability of losing lock" + exceeding + (exceeding.empty() ? "" : ",") + " is below " +
-           design_->losing_lock->text + " " + words_.stretch_of_samples();
-  }
-  if (id == kBias) {
-    return "the mean frequency error is at most " + design_->bias->text;
-  }
-  return "the frequency error varies by at most " + design_->ripple->text;
-}
-
-std::vector<Requirement> ModelClaims::required() const {
-  std::vector<Requirement> asked;
-  const auto require = [&](bool is_asked, const std::string& id) {
-    if (is_asked) {
-      asked.push_back({id, short_text(id)});
-    }
-  };
-  require(design_->frequency_error_below.has_value(), kErrorBound);
-  require(design_->settles_within.has_value(), kSettlingTime);
-  require(design_->captured_within.has_value(), kCaptureTime);
-  require(design_->largest_noise.has_value(), kLargestNoise);
-  require(design_->largest_slew.has_value(), kLargestSlew);
-  require(design_->radius.has_value(), kRadius);
-  require(design_->losing_lock.has_value(), kLosingLock);
-  require(design_->bias.has_value(), kBias);
-  require(design_->ripple.has_value(), kRipple);
-  return asked;
 }
 
 ModelClaims::Part ModelClaims::part_of(const Tree& claim, Objections& objections) const {
@@ -266,7 +167,7 @@ Claim ModelClaims::bound() const {
   const TubeFamily* set = deciding_set();
   Claim found;
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
-                    words_.assumed_start(deciding_name()) + ", " + short_text(kErrorBound) + ".";
+                    words_.assumed_start(deciding_name()) + ", " + required_.short_text(kErrorBound) + ".";
   found.verdict = proved_if(set != nullptr && contains_assumed_starts(*set) &&
                             of(*set).error_is_below(first_level, design_->frequency_error_below->value));
   return found;
@@ -276,7 +177,7 @@ Claim ModelClaims::settling() const {
   const TubeFamily* set = deciding_set();
   Claim found;
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
-                    words_.assumed_start(deciding_name()) + ", " + short_text(kSettlingTime) + ".";
+                    words_.assumed_start(deciding_name()) + ", " + required_.short_text(kSettlingTime) + ".";
   if (set != nullptr && contains_assumed_starts(*set)) {
     // The last levels that are reached in time.
     const std::vector<TubeSet> reached = reached_by(*set, design_->settles_within->value);
@@ -308,7 +209,7 @@ Claim ModelClaims::size(const Tree& claim) const {
     found.verdict =
         proved_if(set != nullptr && of(*set).contains_errors(design_->radius->value) && is_lock(*set, error));
   }
-  found.statement += ", " + short_text(id) + ".";
+  found.statement += ", " + required_.short_text(id) + ".";
   return found;
 }
 
@@ -365,7 +266,7 @@ Claim ModelClaims::required_lock(const Tree& claim) const {
   const TubeFamily* set = find("gaussian");
   Claim found;
   found.statement = words_.constant_tone() + words_.gaussian_noise() + words_.start_inside("gaussian") +
-                    ", " + short_text(kLosingLock) + ".";
+                    ", " + required_.short_text(kLosingLock) + ".";
   found.verdict = proved_if(is_seldom_left(set, *design_->deviation, design_->losing_lock->value, true) &&
                             is_lock(*set, written(claim, "frequency_error")));
   return found;
@@ -429,7 +330,7 @@ Claim ModelClaims::captured_in_time(const Tree& claim) const {
   const double samples = std::floor(std::min(design_->captured_within->value.lower_double(), kMostSamples));
   Claim found;
   found.statement = words_.constant_tone() + words_.assumed_noise(design_->is_noisy()) +
-                    words_.started_exactly() + ", " + short_text(kCaptureTime) + ".";
+                    words_.started_exactly() + ", " + required_.short_text(kCaptureTime) + ".";
   found.verdict = proved_if(
       is_of_one_amplitude(set) && samples >= 1.0 && is_lock(*set, written(claim, "frequency_error")) &&
       is_captured(*model_, set->sets.front(),

@@ -10,6 +10,7 @@
 
 #include "checker/document/parts.hpp"
 #include "checker/model/model_design.hpp"
+#include "checker/model/required_claims.hpp"
 #include "checker/model/tube_family.hpp"
 #include "checker/sets/frequency_words.hpp"
 
@@ -23,7 +24,7 @@ class ModelClaims {
               const std::map<std::string, TubeFamily>& sets, std::int64_t& cells);
 
   /// The requirements of [require].
-  [[nodiscard]] std::vector<Requirement> required() const;
+  [[nodiscard]] std::vector<Requirement> required() const { return required_.all(); }
   /// The claim in the checker's words, with its verdict. Objects where the certificate says something else.
   Claim check(const Tree& claim, Objections& objections) const;
 
@@ -56,12 +57,7 @@ class ModelClaims {
   /// true lock than to any other that the formulas show (false_lock.hpp). Only such sets support statements
   /// about lock.
   [[nodiscard]] bool is_lock(const TubeFamily& family, const Ball& error, const Part& part = {}) const;
-  /// The frequency error that the claim of this id names, and `text` with that number; nothing where it names
-  /// none.
-  [[nodiscard]] const std::string* named_error(const std::string& id) const;
-  [[nodiscard]] std::string in_lock(const std::string& id, const std::string& text) const;
 
-  [[nodiscard]] std::string short_text(const std::string& id) const;
   [[nodiscard]] Claim bound() const;
   [[nodiscard]] Claim settling() const;
   [[nodiscard]] Claim size(const Tree& claim) const;
@@ -84,13 +80,13 @@ class ModelClaims {
   [[nodiscard]] Claim slew_limit(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;
 
-  const Tree* tree_;    ///< the design
-  const Tree* claims_;  ///< of the certificate
+  const Tree* tree_;  ///< the design
   const ModelDesign* design_;
   const TrackedModel* model_;
   const std::map<std::string, TubeFamily>* sets_;
   std::int64_t* cells_;
   ModelWords words_;
+  RequiredClaims required_;
   FrequencyWords units_;
 };
 

@@ -16,13 +16,15 @@ Ball turn_per_sample(const Tree& assume, Objections& objections) {
   return two * pi() / read_positive(assume.at("sample_rate"), "sample_rate", objections);
 }
 
-void read_model_band(const Tree& assume, ModelDesign& design, Objections& objections) {
+void read_model_band(const Tree& assume, bool both_signs, ModelDesign& design, Objections& objections) {
   const Tree& band = assume.at("frequency");
   if (band.elements().size() != 2) {
     throw Malformed("a band has two ends");
   }
-  const Ball low = read_not_negative(band.at(0), "frequency", objections);
-  const Ball high = read_positive(band.at(1), "frequency", objections);
+  const Ball low = both_signs ? read_number(band.at(0), objections)
+                              : read_not_negative(band.at(0), "frequency", objections);
+  const Ball high =
+      both_signs ? read_number(band.at(1), objections) : read_positive(band.at(1), "frequency", objections);
   if (text_of(band.at(0)) != text_of(band.at(1)) && !certainly_at_most(low, high)) {
     objections.emplace_back("the frequencies must go from low to high");
   }
@@ -31,6 +33,9 @@ void read_model_band(const Tree& assume, ModelDesign& design, Objections& object
   design.highest = high * design.band_unit;
   if (!certainly_at_most(design.highest, from_decimal("3.142"))) {
     objections.emplace_back("the frequencies must not be above pi rad/sample");
+  }
+  if (both_signs && !certainly_at_most(from_decimal("-3.142"), design.lowest)) {
+    objections.emplace_back("the frequencies must not be below -pi rad/sample");
   }
 }
 
@@ -195,11 +200,12 @@ Ball deviation_at(const Ball& decibels) {
   return exp(-(decibels / Ball(20.0)) * log(Ball(10.0))) / sqrt(two);
 }
 
-ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objections& objections) {
+ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objections& objections,
+                              bool both_signs) {
   const Tree& assume = tree.at("assume");
   ModelDesign design;
   read_amplitude(assume.at("amplitude"), design, objections);
-  read_model_band(assume, design, objections);
+  read_model_band(assume, both_signs, design, objections);
   read_noise(assume, design, objections);
   design.slew = read_not_negative(assume.at("slew"), "slew", objections);
   if (assume.at("slew_in_hertz_per_second").truth()) {
@@ -345,6 +351,17 @@ std::string ModelWords::started_exactly() const {
 std::string ModelWords::start_within(const std::string& set) const {
   return ", started within {" + listed(assume().at("start_within")) + "} of the curve of the set \"" + set +
          "\" of the certificate, the other states on it";
+}
+
+std::string ModelWords::started_in_steady_state() {
+  return "started in the steady state of the certificate";
+}
+
+std::string ModelWords::assumed_start_by_steady_state() const {
+  const Tree* start = assume().find("start_within");
+  return start == nullptr ? ", " + started_in_steady_state()
+                          : ", started within {" + listed(*start) +
+                                "} of the steady state of the certificate, the other states in it";
 }
 
 }  // namespace veritrack::checker

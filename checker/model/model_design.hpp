@@ -47,8 +47,9 @@ Ball deviation_at(const Ball& decibels);
 
 /// Reads the members "assume" and "require" of a design. Objects unless 0 <= lowest <= highest <= 3.142 (pi,
 /// as one may write it), amplitudes are positive and those of a range go from low to high, and no number is
-/// negative that must not be.
-ModelDesign read_model_design(const Tree& design, ModelRecursion& recursion, Objections& objections);
+/// negative that must not be. `both_signs`: frequencies may be negative, down to -3.142.
+ModelDesign read_model_design(const Tree& design, ModelRecursion& recursion, Objections& objections,
+                              bool both_signs = false);
 
 /// A part of the band: as a claim writes it, and in rad/sample.
 struct BandPart {
@@ -75,6 +76,9 @@ class ModelWords {
   [[nodiscard]] std::string assumed_start(const std::string& set) const;
   /// For a start in the set of that name.
   [[nodiscard]] std::string started_in(const std::string& set) const;
+  /// For a start in the steady state of a certificate by gains, or as far from it as is assumed.
+  [[nodiscard]] static std::string started_in_steady_state();
+  [[nodiscard]] std::string assumed_start_by_steady_state() const;
   /// The state that the tracker is started in.
   [[nodiscard]] std::string started_exactly() const;
   /// The same, for statements that depend on how deep inside the set a start is.

@@ -90,8 +90,18 @@ class ModelRecursion {
   [[nodiscard]] Scalar value(const Formula& formula, const std::vector<Scalar>& variables) const {
     return value_of<Scalar>(formula, [&](const FormulaStep& leaf) {
       return leaf.slot >= 0 ? variables[static_cast<std::size_t>(leaf.slot)]
-                            : Scalar(constants_[static_cast<std::size_t>(-1 - leaf.slot)]);
+                            : constant<Scalar>(static_cast<std::size_t>(-1 - leaf.slot));
     });
+  }
+  /// A scalar may ask for the place of a constant: two constants may be different although their balls are
+  /// equal.
+  template <typename Scalar>
+  [[nodiscard]] Scalar constant(std::size_t place) const {
+    if constexpr (requires { Scalar::constant(constants_[place], place); }) {
+      return Scalar::constant(constants_[place], place);
+    } else {
+      return Scalar(constants_[place]);
+    }
   }
   /// The results of the lines; unknown where a limit is not certain to be kept.
   template <typename Scalar>

@@ -1,0 +1,148 @@
+#include "checker/model/gain/frame_value.hpp"
+
+#include "checker/model/gain/wave_values.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+thread_local LinearFrame* current = nullptr;
+
+LinearFrame& frame() {
+  if (current == nullptr) {
+    throw NotCovered("no frame");
+  }
+  return *current;
+}
+
+}  // namespace
+
+FrameScope::FrameScope(LinearFrame& scope) : before_(std::exchange(current, &scope)) {}
+FrameScope::~FrameScope() {
+  current = before_;
+}
+
+FrameValue::FrameValue(const Ball& value) : value_(Linear{frame().number(value)}) {}
+
+FrameValue FrameValue::constant(const Ball& value, std::size_t place) {
+  return FrameValue(Linear{frame().constant(value, place)});
+}
+
+FrameValue FrameValue::state(std::size_t index, const LinearValue& value) {
+  return FrameValue(Linear{frame().state(index, value)});
+}
+
+int FrameValue::linear() const {
+  if (const auto* known = std::get_if<Linear>(&value_)) {
+    return known->number;
+  }
+  if (const auto* quotient = std::get_if<Quotient>(&value_)) {
+    return frame().function("tan", quotient->angle);
+  }
+  return linear_value(frame(), std::get<Waves>(value_));
+}
+
+std::optional<Waves> FrameValue::waves() const {
+  if (const auto* sum_of_waves = std::get_if<Waves>(&value_)) {
+    return *sum_of_waves;
+  }
+  const auto* known = std::get_if<Linear>(&value_);
+  if (known == nullptr || !frame().at(known->number).is_constant()) {
+    return std::nullopt;
+  }
+  return constant_wave(frame().factors(known->number));
+}
+
+FrameValue FrameValue::function(const std::string& name) const {
+  return FrameValue(Linear{frame().function(name, linear())});
+}
+
+FrameValue operator-(const FrameValue& x) {
+  if (const auto* waves = std::get_if<Waves>(&x.value_)) {
+    return FrameValue(negated(*waves));
+  }
+  return FrameValue(FrameValue::Linear{frame().negated(x.linear())});
+}
+
+FrameValue operator+(const FrameValue& x, const FrameValue& y) {
+  if (x.is_sum_of_waves() || y.is_sum_of_waves()) {
+    const std::optional<Waves> left = x.waves();
+    const std::optional<Waves> right = y.waves();
+    if (left && right) {
+      return FrameValue(sum(*left, *right));
+    }
+  }
+  return FrameValue(FrameValue::Linear{frame().sum(x.linear(), y.linear())});
+}
+
+FrameValue operator*(const FrameValue& x, const FrameValue& y) {
+  if (x.is_sum_of_waves() || y.is_sum_of_waves()) {
+    const std::optional<Waves> left = x.waves();
+    const std::optional<Waves> right = y.waves();
+    if (left && right) {
+      return FrameValue(product(*left, *right));
+    }
+  }
+  return FrameValue(FrameValue::Linear{frame().product(x.linear(), y.linear())});
+}
+
+FrameValue operator/(const FrameValue& x, const FrameValue& y) {
+  const std::optional<Waves> left = x.waves();
+  const std::optional<Waves> right = y.waves();
+  if (left && y.is_sum_of_waves()) {
+    // |y| > 0: the noise is certainly below the amplitude (GainNetwork).
+    if (const std::optional<int> power = power_of_length(*right)) {
+      return FrameValue(divided_by_length(*left, *power));
+    }
+    if (const std::optional<TurnedWave> wave = turned_wave(frame(), *left, *right)) {
+      const int angle = argument(frame(), *wave);
+      if (frame().at(angle).turns == 0) {
+        return FrameValue(FrameValue::Quotient{frame().principal(angle, pi())});
+      }
+    }
+  }
+  if (x.is_sum_of_waves() && right && !y.is_sum_of_waves()) {
+    return FrameValue(
+        product(*left, *FrameValue(FrameValue::Linear{frame().function("reciprocal", y.linear())}).waves()));
+  }
+  return FrameValue(FrameValue::Linear{frame().quotient(x.linear(), y.linear())});
+}
+
+FrameValue sqrt(const FrameValue& x) {
+  if (const auto* waves = std::get_if<Waves>(&x.value_)) {
+    const std::optional<int> power = power_of_length(*waves);
+    if (power && *power % 2 == 0) {
+      return FrameValue(divided_by_length(*waves, *power / 2));
+    }
+  }
+  return x.function("sqrt");
+}
+
+FrameValue arctangent(const FrameValue& x) {
+  if (const auto* quotient = std::get_if<FrameValue::Quotient>(&x.value_)) {
+    return FrameValue(FrameValue::Linear{quotient->angle});
+  }
+  return x.function("atan");
+}
+
+FrameValue arctangent2(const FrameValue& y, const FrameValue& x) {
+  const std::optional<Waves> imaginary = y.waves();
+  const std::optional<Waves> real = x.waves();
+  const std::optional<TurnedWave> wave =
+      imaginary && real ? turned_wave(frame(), *imaginary, *real) : std::nullopt;
+  if (!wave) {
+    throw NotCovered("atan2 of other than the two parts of one wave");
+  }
+  const int angle = argument(frame(), *wave);
+  if (frame().at(angle).turns != 0) {
+    // Between -pi and pi; only modulo 2 pi it is the sum.
+    return FrameValue(FrameValue::Linear{frame().modulo_turn(angle)});
+  }
+  return FrameValue(FrameValue::Linear{frame().principal(angle, two * pi())});
+}
+
+FrameValue stays_within(const FrameValue& x, const FrameValue& low, const FrameValue& high) {
+  return FrameValue(FrameValue::Linear{frame().stays_within(x.linear(), low.linear(), high.linear())});
+}
+
+}  // namespace veritrack::checker

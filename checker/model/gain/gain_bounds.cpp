@@ -1,0 +1,196 @@
+#include "checker/model/gain/gain_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr double kGrowth = 1.0 + 0x1p-20;
+constexpr int kMostRounds = 3000;
+
+}  // namespace
+
+Ball GainErrors::from_block(std::size_t block) const {
+  const auto first = by_block_.begin() + static_cast<std::ptrdiff_t>(block);
+  return Ball(*std::max_element(first, by_block_.end())) + Ball(bias_);  // all are finite
+}
+
+Ball GainErrors::from(const Ball& sample) const {
+  const double whole = std::floor(sample.lower_double() / static_cast<double>(block_length_));
+  const double last = static_cast<double>(by_block_.size() - 1);
+  return from_block(whole >= last  ? by_block_.size() - 1
+                    : whole >= 1.0 ? static_cast<std::size_t>(whole)
+                                   : 0);
+}
+
+GainBounds::Given GainBounds::given(const Ball& noise, const Ball& slew,
+                                    const std::vector<Ball>& start) const {
+  Given result;
+  const std::optional<Table> of_start = kernels_.starts(start);
+  if (!of_start) {
+    result.is_known = false;
+    return result;
+  }
+  result.start = *of_start;
+  for (std::size_t form = 0; form < network_->forms.size(); ++form) {
+    double sum = 0.0;
+    for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
+      const GainInput& entry = network_->inputs[input];
+      if (!entry.is_remainder()) {
+        sum += upward_product(kernels_.total(form, input), upper(entry.size(noise, slew)));
+      }
+    }
+    result.outside.push_back(up(sum));
+  }
+  return result;
+}
+
+std::vector<double> GainBounds::sizes(const std::vector<double>& bounds) const {
+  std::vector<double> result(network_->inputs.size(), 0.0);
+  for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
+    const GainInput& entry = network_->inputs[input];
+    if (entry.is_remainder()) {
+      std::vector<Ball> about;
+      for (const std::size_t form : entry.about) {
+        about.emplace_back(bounds[form]);
+      }
+      result[input] = upper(entry.at_bounds(about));
+    }
+  }
+  return result;
+}
+
+Table GainBounds::next(const Table& bounds, const Given& given) const {
+  const std::size_t blocks = kernels_.blocks();
+  const std::size_t forms = network_->forms.size();
+  Table z;  // by block and input
+  for (const std::vector<double>& of_block : bounds) {
+    z.push_back(sizes(of_block));
+  }
+  Table result(blocks + 1, std::vector<double>(forms));
+  for (std::size_t form = 0; form < forms; ++form) {
+    for (std::size_t m = 0; m <= blocks; ++m) {
+      result[m][form] = given.start[form][m] + given.outside[form];
+    }
+  }
+  for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
+    if (!network_->inputs[input].is_remainder()) {
+      continue;
+    }
+    // The largest from each block on.
+    std::vector<double> later(blocks + 1);
+    for (std::size_t m = blocks + 1; m-- > 0;) {
+      later[m] = m == blocks ? z[m][input] : std::max(z[m][input], later[m + 1]);
+    }
+    std::vector<double> pair(blocks);  // of a block and the one before
+    for (std::size_t m = 0; m < blocks; ++m) {
+      pair[m] = m == 0 ? z[0][input] : std::max(z[m - 1][input], z[m][input]);
+    }
+    spend(static_cast<std::int64_t>(forms * blocks * blocks / 8));
+    for (std::size_t form = 0; form < forms; ++form) {
+      const std::vector<double>& kernel = kernels_.by_block(form, input);
+      const double tail = upward_product(kernels_.tail(form, input), later[0]);
+      for (std::size_t m = 0; m < blocks; ++m) {
+        double sum = upward_product(kernels_.direct(form, input), z[m][input]) + tail;
+        for (std::size_t p = 0; p <= m; ++p) {
+          sum += upward_product(kernel[p], pair[m - p]);
+        }
+        result[m][form] += sum;
+      }
+      double sum = upward_product(kernels_.direct(form, input), z[blocks][input]) + tail;
+      for (std::size_t p = 0; p < blocks; ++p) {
+        sum += upward_product(kernel[p], later[blocks - p - 1]);
+      }
+      result[blocks][form] += sum;
+    }
+  }
+  for (std::vector<double>& of_block : result) {
+    for (double& bound : of_block) {
+      bound = up(bound);
+    }
+  }
+  return result;
+}
+
+bool GainBounds::keeps_limits(const std::vector<double>& bounds) const {
+  return std::all_of(network_->limits.begin(), network_->limits.end(), [&](const GainLimit& limit) {
+    const Ball value = limit.base + Ball::within(Ball(bounds[limit.form]));
+    return certainly_less(limit.low, value) && certainly_less(value, limit.high);
+  });
+}
+
+double GainBounds::in_long_run(std::vector<double> bounds, const Given& given) const {
+  Table totals(bounds.size(), std::vector<double>(network_->inputs.size()));
+  for (std::size_t form = 0; form < bounds.size(); ++form) {
+    for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
+      totals[form][input] = kernels_.total(form, input);
+    }
+  }
+  for (int round = 0; round < kMostRounds; ++round) {
+    spend(static_cast<std::int64_t>(bounds.size() * network_->inputs.size() / 8));
+    const std::vector<double> z = sizes(bounds);
+    bool changes = false;
+    std::vector<double> next = bounds;
+    for (std::size_t form = 0; form < bounds.size(); ++form) {
+      double sum = given.outside[form];
+      for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
+        if (network_->inputs[input].is_remainder()) {
+          sum += upward_product(totals[form][input], z[input]);
+        }
+      }
+      changes = changes || up(sum) * kGrowth < bounds[form];
+      next[form] = up(sum) < bounds[form] ? up(sum) : bounds[form];
+    }
+    bounds = std::move(next);
+    if (!changes) {
+      break;
+    }
+  }
+  return bounds[network_->error_form];
+}
+
+std::optional<GainErrors> GainBounds::errors(const Ball& noise, const Ball& slew,
+                                             const std::vector<Ball>& start) const {
+  if (!is_certain() || start.size() != network_->states() || !certainly_not_negative(noise) ||
+      !certainly_not_negative(slew) || !certainly_less(noise, network_->least_amplitude)) {
+    return std::nullopt;
+  }
+  const std::size_t blocks = kernels_.blocks();
+  const Given known = given(noise, slew, start);
+  if (!known.is_known) {
+    return std::nullopt;
+  }
+  Table bounds(blocks + 1, std::vector<double>(network_->forms.size(), 0.0));
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Table above = next(bounds, known);
+    if (!std::all_of(bounds.begin(), bounds.end(), [&](const auto& each) { return keeps_limits(each); })) {
+      return std::nullopt;
+    }
+    bool is_kept = true;
+    Table raised = bounds;
+    for (std::size_t m = 0; m <= blocks; ++m) {
+      for (std::size_t form = 0; form < above[m].size(); ++form) {
+        if (!std::isfinite(above[m][form])) {
+          return std::nullopt;
+        }
+        is_kept = is_kept && above[m][form] <= bounds[m][form];
+        raised[m][form] = std::max(bounds[m][form], above[m][form] * kGrowth);
+      }
+    }
+    if (is_kept) {
+      std::vector<double> error;
+      for (const std::vector<double>& of_block : bounds) {
+        error.push_back(of_block[network_->error_form]);
+      }
+      return GainErrors(error, in_long_run(bounds.back(), known), upper(abs(network_->bias)),
+                        kernels_.block_length());
+    }
+    bounds = std::move(raised);
+  }
+  return std::nullopt;
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,69 @@
+// Bounds on the errors of a network by the worst case of each input (docs/gain-proof.md, sections 4 and 5).
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "checker/model/gain/gain_kernels.hpp"
+#include "checker/model/gain/gain_network.hpp"
+
+namespace veritrack::checker {
+
+/// Bounds on the frequency error of a network, for certain noise, slew and starts.
+class GainErrors {
+ public:
+  GainErrors(std::vector<double> by_block, double in_long_run, double bias, std::size_t block_length)
+      : by_block_(std::move(by_block)), in_long_run_(in_long_run), bias_(bias), block_length_(block_length) {}
+
+  /// At every sample.
+  [[nodiscard]] Ball for_ever() const { return from_block(0); }
+  /// From this sample on.
+  [[nodiscard]] Ball from(const Ball& sample) const;
+  /// A bound on the upper limit.
+  [[nodiscard]] Ball in_long_run() const { return Ball(in_long_run_) + Ball(bias_); }
+  /// The same without the bias.
+  [[nodiscard]] Ball deviation_in_long_run() const { return Ball(in_long_run_); }
+
+ private:
+  [[nodiscard]] Ball from_block(std::size_t block) const;
+
+  std::vector<double> by_block_;  ///< without the bias
+  double in_long_run_;
+  double bias_;
+  std::size_t block_length_;
+};
+
+class GainBounds {
+ public:
+  /// `blocks` divides `horizon`. The network must outlive this.
+  GainBounds(const GainNetwork& network, std::size_t horizon, std::size_t blocks)
+      : network_(&network), kernels_(network, horizon, blocks) {}
+
+  /// Whether the sums over all samples are bounded.
+  [[nodiscard]] bool is_certain() const { return kernels_.is_certain(); }
+  /// The bounds for |v| <= noise, |change of omega| <= slew and |xi_0| <= start by state; nothing where they
+  /// are not certain.
+  [[nodiscard]] std::optional<GainErrors> errors(const Ball& noise, const Ball& slew,
+                                                 const std::vector<Ball>& start) const;
+
+ private:
+  /// What does not change from round to round.
+  struct Given {
+    Table start;                  ///< T, by form and block
+    std::vector<double> outside;  ///< by form: of the inputs that are no remainders
+    bool is_known = true;
+  };
+  [[nodiscard]] Given given(const Ball& noise, const Ball& slew, const std::vector<Ball>& start) const;
+  /// The sizes of remainders, by input, where forms are at most `bounds`.
+  [[nodiscard]] std::vector<double> sizes(const std::vector<double>& bounds) const;
+  /// The bounds of the theorem, by block and form, from such bounds.
+  [[nodiscard]] Table next(const Table& bounds, const Given& given) const;
+  [[nodiscard]] double in_long_run(std::vector<double> bounds, const Given& given) const;
+  [[nodiscard]] bool keeps_limits(const std::vector<double>& bounds) const;
+
+  const GainNetwork* network_;
+  GainKernels kernels_;
+};
+
+}  // namespace veritrack::checker

@@ -1,0 +1,65 @@
+#include "checker/model/gain/gain_evidence.hpp"
+
+#include <cstdlib>
+
+#include "checker/document/evidence.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr long kMostBlocks = 256;
+constexpr long kLongestHorizon = 1L << 22;
+constexpr long kMostTurns = 1000;
+
+std::vector<SteadyState> read_steady_state(const Tree& list, Objections& objections) {
+  std::vector<SteadyState> steady;
+  for (const Tree& entry : list.elements()) {
+    steady.push_back({entry.at("turns").integer(), exact_number(entry.at("constant")),
+                      exact_number(entry.at("per_frequency"))});
+    if (std::labs(steady.back().turns) > kMostTurns) {
+      objections.emplace_back("too many turns");
+    }
+  }
+  return steady;
+}
+
+/// The samples are those of a tone in phase and in quadrature.
+bool is_tone_of_two_channels(const Tree& model) {
+  const std::vector<Tree>& signal = model.at("signal").elements();
+  return signal.size() == 2 && signal[0].text() == "A*cos(phi)" && signal[1].text() == "A*sin(phi)";
+}
+
+}  // namespace
+
+std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const ModelRecursion& recursion,
+                                  const ModelDesign& design, Objections& objections) {
+  const std::vector<SteadyState> steady = read_steady_state(gains.at("steady_state"), objections);
+  const long horizon = gains.at("horizon").integer();
+  const long blocks = gains.at("blocks").integer();
+  if (blocks < 1 || blocks > kMostBlocks || horizon < 1 || horizon > kLongestHorizon ||
+      horizon % blocks != 0) {
+    objections.emplace_back("the blocks do not divide the horizon, or there are too many");
+  }
+  if (recursion.samples() != 2 || recursion.filtered() > 0 || !is_tone_of_two_channels(model) ||
+      design.deviation || !design.start.empty()) {
+    objections.emplace_back("gains are for a loop on a tone in phase and in quadrature, in bounded noise");
+  }
+  if (!objections.empty()) {
+    return nullptr;
+  }
+  try {
+    auto result =
+        std::make_unique<Gains>(gain_network(recursion, design, steady), static_cast<std::size_t>(horizon),
+                                static_cast<std::size_t>(blocks));
+    if (result->bounds.is_certain()) {
+      return result;
+    }
+    objections.emplace_back("the loop is not stable, or the horizon is too short");
+  } catch (const NotCovered& reason) {
+    objections.emplace_back(reason.what());
+  }
+  return nullptr;
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,160 @@
+#include "checker/model/gain/gain_network.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "checker/model/gain/frame_value.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// The forms of values of a frame, by their numbers.
+class Forms {
+ public:
+  Forms(const LinearFrame& frame, std::vector<GainForm>& forms) : frame_(&frame), forms_(&forms) {}
+
+  std::size_t of(int value) {
+    const auto [place, is_new] = places_.try_emplace(value, forms_->size());
+    if (is_new) {
+      GainForm form;
+      form.row.assign(frame_->states(), zero);
+      for (const auto& [source, factor] : frame_->at(value).deviations) {
+        if (source < frame_->states()) {
+          form.row[source] = factor.first;
+        } else {
+          form.direct[source - frame_->states()] = factor;
+        }
+      }
+      forms_->push_back(std::move(form));
+    }
+    return place->second;
+  }
+
+ private:
+  const LinearFrame* frame_;
+  std::vector<GainForm>* forms_;
+  std::map<int, std::size_t> places_;
+};
+
+/// Row number `state` of the recursion, and the residual of its steady state as an input.
+void add_state(const LinearFrame& frame, const LinearValue& value, const SteadyState& steady, bool is_angle,
+               std::size_t state, GainNetwork& network) {
+  if (value.turns != steady.turns) {
+    throw NotCovered("a state does not turn with the signal as its steady state does");
+  }
+  if (value.is_modulo_turn && !is_angle) {
+    throw NotCovered("a state that is no angle is known modulo a turn only");
+  }
+  for (const auto& [source, factor] : value.deviations) {
+    if (source < frame.states()) {
+      network.matrix[state][source] = factor.first;
+    } else {
+      network.inputs[source - frame.states()].column[state] = factor;
+    }
+  }
+  LinearValue left;
+  left.constant = value.constant - steady.constant;
+  left.per_frequency = value.per_frequency - steady.per_frequency - Ball(static_cast<double>(steady.turns));
+  Ball residual = frame.base(left);
+  if (is_angle) {
+    const Ball turn = two * pi();
+    residual -= Ball(std::round((residual / turn).near())) * turn;
+  }
+  GainInput input;
+  input.column.assign(frame.states(), {zero, zero});
+  input.column[state].first = one;
+  input.size = [size = abs(residual).upper()](const Ball& /*noise*/, const Ball& /*slew*/) { return size; };
+  network.inputs.push_back(std::move(input));
+}
+
+/// Remainders are about forms of inputs that come before them: the induction of the theorem within a sample.
+void require_order(const GainNetwork& network) {
+  for (std::size_t input = 0; input < network.inputs.size(); ++input) {
+    for (const std::size_t form : network.inputs[input].about) {
+      const auto& direct = network.forms[form].direct;
+      if (!direct.empty() && direct.rbegin()->first >= input) {
+        throw NotCovered("a remainder is about what comes after it");
+      }
+    }
+  }
+}
+
+std::vector<FrameValue> frame_states(const std::vector<SteadyState>& steady,
+                                     const std::vector<bool>& is_angle) {
+  std::vector<FrameValue> states;
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    if (steady[i].turns != 0 && !is_angle[i]) {
+      throw NotCovered("only an angle turns with the signal");
+    }
+    states.push_back(FrameValue::state(
+        i,
+        LinearValue{
+            steady[i].turns, steady[i].constant, steady[i].per_frequency, {{i, {one, zero}}}, is_angle[i]}));
+  }
+  return states;
+}
+
+}  // namespace
+
+GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& design,
+                         const std::vector<SteadyState>& steady) {
+  const std::size_t n = recursion.states();
+  if (recursion.samples() != 2 || recursion.filtered() > 0 || steady.size() != n) {
+    throw NotCovered("gains are for loops of two channels, with one steady state for each state");
+  }
+  LinearFrame frame(n, design.least_amplitude, design.largest_amplitude, design.lowest, design.highest);
+  const FrameScope scope(frame);
+  const std::vector<FrameValue> state = frame_states(steady, recursion.is_angle());
+  std::vector<int> next;
+  for (const FrameValue& value : recursion.next(state, {FrameValue::sample(0), FrameValue::sample(1)})) {
+    next.push_back(value.linear());
+  }
+  const int error = (recursion.frequency(state)).linear();
+  const LinearValue frequency = frame.at(error);
+  if (!frequency.is_plain()) {
+    throw NotCovered("the frequency depends on an angle");
+  }
+
+  GainNetwork network;
+  network.least_amplitude = design.least_amplitude;
+  network.matrix.assign(n, std::vector<Ball>(n, zero));
+  Forms forms(frame, network.forms);
+  for (const FrameInput& input : frame.inputs()) {
+    GainInput entry;
+    entry.column.assign(n, {zero, zero});
+    if (input.is_remainder()) {
+      for (const int value : input.about) {
+        entry.about.push_back(forms.of(value));
+      }
+      entry.at_bounds = input.at_bounds;
+    } else {
+      entry.size = [size = input.at_noise](const Ball& noise, const Ball& /*slew*/) { return size(noise); };
+    }
+    network.inputs.push_back(std::move(entry));
+  }
+  require_order(network);
+  for (const FrameLimit& limit : frame.limits()) {
+    network.limits.push_back({forms.of(limit.about), limit.base, limit.low, limit.high});
+  }
+  network.error_form = forms.of(error);
+  network.frequency = network.forms[network.error_form].row;
+  LinearValue bias;
+  bias.constant = frequency.constant;
+  bias.per_frequency = frequency.per_frequency - one;
+  network.bias = frame.base(bias);
+  for (std::size_t i = 0; i < n; ++i) {
+    add_state(frame, frame.at(next[i]), steady[i], recursion.is_angle()[i], i, network);
+  }
+  GainInput slew;
+  for (const SteadyState& each : steady) {
+    slew.column.push_back({-each.per_frequency, zero});
+  }
+  slew.size = [](const Ball& /*noise*/, const Ball& most) { return most; };
+  network.inputs.push_back(std::move(slew));
+  return network;
+}
+
+}  // namespace veritrack::checker

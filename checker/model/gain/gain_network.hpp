@@ -1,0 +1,63 @@
+// The errors of a loop of two channels about its steady state: a linear recursion with inputs of known size
+// (docs/gain-proof.md, section 3).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "checker/model/gain/linear_frame.hpp"
+#include "checker/model/model_design.hpp"
+#include "checker/model/model_recursion.hpp"
+
+namespace veritrack::checker {
+
+/// Of a state: turns phi + constant + per_frequency omega.
+struct SteadyState {
+  long turns = 0;
+  Ball constant, per_frequency;
+};
+
+/// An input with its column B.
+struct GainInput {
+  std::vector<InputFactor> column;  ///< by state
+  /// Of noise, the slew and residuals: the size.
+  std::function<Ball(const Ball& noise, const Ball& slew)> size;
+  /// Of a remainder: the forms that it is about, and the size at their bounds.
+  std::vector<std::size_t> about;
+  std::function<Ball(const std::vector<Ball>& bounds)> at_bounds;
+
+  [[nodiscard]] bool is_remainder() const { return !about.empty(); }
+};
+
+/// y = row xi + the sum of direct inputs.
+struct GainForm {
+  std::vector<Ball> row;
+  std::map<std::size_t, InputFactor> direct;  ///< by input
+};
+
+/// low < base + y < high for this form.
+struct GainLimit {
+  std::size_t form = 0;
+  Ball base, low, high;
+};
+
+struct GainNetwork {
+  std::vector<std::vector<Ball>> matrix;
+  std::vector<GainInput> inputs;
+  std::vector<GainForm> forms;
+  std::vector<GainLimit> limits;
+  std::size_t error_form = 0;   ///< h(X_k) - omega_k, less the bias
+  Ball bias;                    ///< over the band
+  std::vector<Ball> frequency;  ///< the row of the frequency
+  Ball least_amplitude;         ///< noise must be below it
+
+  [[nodiscard]] std::size_t states() const { return matrix.size(); }
+};
+
+/// Throws NotCovered where the method says nothing. One steady state for each state; turns of angles alone.
+GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& design,
+                         const std::vector<SteadyState>& steady);
+
+}  // namespace veritrack::checker

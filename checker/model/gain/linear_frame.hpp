@@ -1,0 +1,141 @@
+// Values of a loop of two channels, measured from the phase of its signal: linear in the deviations of the
+// states and in inputs of known size (docs/gain-proof.md, section 2). Each operation on the same values is
+// made once, so that a value is known by its number.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "checker/numbers/ball.hpp"
+
+namespace veritrack::checker {
+
+/// The rules of the frame do not cover a step: the method says nothing about it.
+struct NotCovered : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The factors of the two components of an input; an input of one component has the first alone.
+struct InputFactor {
+  Ball first, second;
+};
+
+/// turns phi + constant + per_frequency omega + the sum of deviations, with phi and omega those of the sample
+/// before.
+struct LinearValue {
+  long turns = 0;
+  Ball constant, per_frequency;
+  /// By source: the states, then the inputs.
+  std::map<std::size_t, InputFactor> deviations;
+  bool is_modulo_turn = false;  ///< known modulo 2 pi only
+
+  /// Without the phase, and known as a number.
+  [[nodiscard]] bool is_plain() const { return turns == 0 && !is_modulo_turn; }
+  [[nodiscard]] bool is_constant() const {
+    return is_plain() && deviations.empty() && certainly_equal(per_frequency, zero);
+  }
+};
+
+/// An exact number, in units of 2^-16, times constants that are known by their numbers.
+struct ConstantFactors {
+  std::int64_t exact = 0;
+  std::vector<int> named;  ///< in order
+};
+constexpr std::int64_t kExactUnit = 65'536;
+/// The product in these units. Throws NotCovered unless it is one, below 2^15; of `halves` factors 1/2 more.
+std::int64_t exact_product(std::int64_t x, std::int64_t y, int halves = 0);
+/// Throws NotCovered if it is 2^15 or more.
+std::int64_t exact_sum(std::int64_t x, std::int64_t y);
+
+/// What comes from outside of the linear recursion, one for each sample: noise, or a remainder.
+struct FrameInput {
+  /// Of noise: the size for this bound on the noise.
+  std::function<Ball(const Ball& noise)> at_noise;
+  /// Of a remainder: the values whose deviations it is about, and the size where these are at most as large.
+  std::vector<int> about;
+  std::function<Ball(const std::vector<Ball>& bounds)> at_bounds;
+
+  [[nodiscard]] bool is_remainder() const { return !about.empty(); }
+};
+
+/// low < base + deviation of a value < high.
+struct FrameLimit {
+  int about = 0;
+  Ball base, low, high;
+};
+
+class LinearFrame {
+ public:
+  /// Amplitudes and frequencies are anywhere in these ranges.
+  LinearFrame(std::size_t states, Ball least_amplitude, Ball largest_amplitude, const Ball& lowest,
+              const Ball& highest);
+
+  // Each returns the number of the value. Throws NotCovered.
+  int number(const Ball& value);
+  /// A constant by its place; another place is another number, whatever the balls.
+  int constant(const Ball& value, std::size_t place);
+  int state(std::size_t index, const LinearValue& value);
+  /// phi + omega.
+  int sample_phase();
+  int sum(int x, int y);
+  int negated(int x);
+  int product(int x, int y);
+  int quotient(int x, int y);
+  /// A function of this name: sqrt, exp, log, tan, asin, acos, atan, reciprocal.
+  int function(const std::string& name, int x);
+  int stays_within(int x, int low, int high);
+  /// The angle that noise adds to that of the sample.
+  int noise_angle();
+  int quarter_turns(int count);
+  /// The value less a multiple of `period`, certain to be within half a period of 0.
+  int principal(int x, const Ball& period);
+  /// The same, known modulo 2 pi.
+  int modulo_turn(int x);
+  /// A value made otherwise, once for each name.
+  int made(const std::string& name, const std::function<LinearValue()>& make);
+  /// A new input; returns its source.
+  std::size_t add_input(FrameInput input);
+  /// The input of this name, made once; returns its source.
+  std::size_t named_input(const std::string& name, const std::function<FrameInput()>& make);
+
+  [[nodiscard]] const LinearValue& at(int number) const {
+    return values_.at(static_cast<std::size_t>(number));
+  }
+  /// The whole number that a constant is, if it is one.
+  [[nodiscard]] std::optional<long> whole(int x) const;
+  [[nodiscard]] ConstantFactors factors(int constant) const;
+  /// constant + per_frequency omega over the band.
+  [[nodiscard]] Ball base(const LinearValue& value) const;
+  [[nodiscard]] const Ball& least_amplitude() const { return least_; }
+  [[nodiscard]] const Ball& largest_amplitude() const { return largest_; }
+  [[nodiscard]] std::size_t states() const { return states_; }
+  [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
+  [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
+
+ private:
+  /// With a name of its own, or that of the exact number that it is.
+  int keep(const std::string& name, LinearValue value);
+  void limit(int x, const Ball& low, const Ball& high);
+  [[nodiscard]] LinearValue scaled(const LinearValue& x, int constant) const;
+  [[nodiscard]] LinearValue product_of_plain(int x, int y);
+  [[nodiscard]] LinearValue value_of_function(const std::string& name, int x);
+
+  std::size_t states_;
+  Ball least_, largest_, frequency_;
+  std::map<std::string, int> names_;
+  std::vector<LinearValue> values_;
+  std::map<int, ConstantFactors> factors_;
+  std::map<std::string, std::size_t> input_names_;
+  std::vector<FrameInput> inputs_;
+  std::vector<FrameLimit> limits_;
+};
+
+/// The deviations of x times a number, added to those of `sum`.
+void add_deviations(LinearValue& sum, const LinearValue& x, const Ball& factor);
+
+}  // namespace veritrack::checker

@@ -1,0 +1,153 @@
+#include "checker/model/gain/wave_values.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace veritrack::checker {
+
+namespace {
+
+Ball product_of_constants(const LinearFrame& frame, const Wave& wave) {
+  Ball product(1.0);
+  for (const int constant : wave.constants) {
+    product = product * frame.at(constant).constant;
+  }
+  return product;
+}
+
+Ball power(const Ball& x, int n) {
+  Ball result(1.0);
+  for (int i = 0; i < std::abs(n); ++i) {
+    result = result * x;
+  }
+  return n < 0 ? one / result : result;
+}
+
+/// R(V): a bound on |(y/e^(j phase))^... - A^s| for a wave of this length and these turns.
+Ball noise_in_wave(const Ball& least, const Ball& largest, int s, int m, const Ball& noise) {
+  // The difference of powers grows with the amplitude for s > 0 and falls for s < 0.
+  const Ball& worst = s >= 0 ? largest : least;
+  const Ball of_amplitude = power(worst, s);
+  const Ball above = abs(power(worst + noise, s) - of_amplitude);
+  if (s == std::abs(m)) {
+    return above;
+  }
+  const Ball below = abs(power(worst - noise, s) - of_amplitude);
+  const Ball angle = min(Ball(std::abs(m)) * arcsine(noise / least), pi());
+  return max(above, below) + two * of_amplitude * sin(half * angle);
+}
+
+/// turns (phi + omega) + sum of times L.
+int angle_of(LinearFrame& frame, const Wave& wave) {
+  int result = frame.number(zero);
+  if (wave.turns != 0) {
+    result = frame.product(frame.number(Ball(wave.turns)), frame.sample_phase());
+  }
+  for (const auto& [angle, times] : wave.angles) {
+    result = frame.sum(result, frame.product(frame.number(Ball(times)), angle));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, const Waves& x) {
+  if (x.size() != 1 || y.size() != 1 || x.begin()->first != y.begin()->first) {
+    return std::nullopt;
+  }
+  const auto [real, imaginary] = x.begin()->second;
+  const std::array<std::int64_t, 2> ahead{-imaginary, real};
+  const std::array<std::int64_t, 2> behind{imaginary, -real};
+  const std::array<std::int64_t, 2>& of_y = y.begin()->second;
+  const Ball factor = product_of_constants(frame, x.begin()->first);
+  const bool is_positive = certainly_positive(factor);
+  if ((real != 0) == (imaginary != 0) || (of_y != ahead && of_y != behind) ||
+      (!is_positive && !certainly_positive(-factor))) {
+    return std::nullopt;
+  }
+  // arg conj(gamma) of x, in quarter turns.
+  const int quarters = (real > 0 ? 0 : real < 0 ? 2 : imaginary > 0 ? -1 : 1) + (is_positive ? 0 : 2);
+  return TurnedWave{x.begin()->first, quarters, of_y == behind};
+}
+
+int argument(LinearFrame& frame, const TurnedWave& turned) {
+  int result = angle_of(frame, turned.wave);
+  if (turned.wave.turns != 0) {
+    result = frame.sum(result, frame.product(frame.number(Ball(turned.wave.turns)), frame.noise_angle()));
+  }
+  if (turned.quarters != 0) {
+    result = frame.sum(result, frame.quarter_turns(turned.quarters));
+  }
+  return turned.is_conjugate ? frame.negated(result) : result;
+}
+
+namespace {
+
+/// Adds Re(conj(gamma) M) as a linear value; gamma = (real, imaginary).
+void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ball& real,
+                const Ball& imaginary) {
+  const int s = wave.length;
+  const int m = wave.turns;
+  const int angle = angle_of(frame, wave);
+  const LinearValue phase = frame.at(angle);
+  if (phase.turns != 0) {
+    throw NotCovered("a value that depends on the phase of the signal is used other than in products");
+  }
+  const Ball amplitude = Ball::hull(power(frame.least_amplitude(), s), power(frame.largest_amplitude(), s));
+  const Ball b = frame.base(phase);
+  const Ball c0 = amplitude * (real * cos(b) + imaginary * sin(b));
+  const Ball c1 = amplitude * (imaginary * cos(b) - real * sin(b));
+  sum.constant += c0;
+  add_deviations(sum, phase, c1);
+  if (s != 0 || m != 0) {
+    const std::size_t noise = frame.named_input("noise in " + name_of(wave), [&] {
+      return FrameInput{[least = frame.least_amplitude(), largest = frame.largest_amplitude(), s,
+                         m](const Ball& bound) { return noise_in_wave(least, largest, s, m, bound); },
+                        {},
+                        nullptr};
+    });
+    LinearValue unit;
+    unit.deviations[noise] = {real, imaginary};
+    add_deviations(sum, unit, one);
+  }
+  if (!phase.deviations.empty()) {
+    // cos(lambda) - 1 and sin(lambda) - lambda, the same for all waves of this angle.
+    const auto remainder = [&](const char* name, const Ball& factor, Ball (*size)(const Ball&)) {
+      if (certainly_equal(factor, zero)) {
+        return;
+      }
+      const std::size_t input = frame.named_input(name + std::to_string(angle), [&] {
+        return FrameInput{
+            nullptr, {angle}, [size](const std::vector<Ball>& bounds) { return size(bounds.at(0)); }};
+      });
+      LinearValue unit;
+      unit.deviations[input] = {one, zero};
+      add_deviations(sum, unit, factor);
+    };
+    remainder("cosine ", c0, [](const Ball& y) { return one - cos(min(y, pi())); });
+    remainder("sine ", c1, [](const Ball& y) { return y - sin(y); });
+  }
+}
+
+}  // namespace
+
+int linear_value(LinearFrame& frame, const Waves& waves) {
+  return frame.made(name_of(waves), [&] {
+    std::map<Wave, std::array<Ball, 2>> by_wave;
+    for (const auto& [wave, gamma] : waves) {
+      const Ball factor = product_of_constants(frame, wave) / Ball(static_cast<double>(kExactUnit));
+      Wave alone = wave;
+      alone.constants.clear();
+      std::array<Ball, 2>& both = by_wave[alone];
+      both[0] += factor * Ball(static_cast<double>(gamma[0]));
+      both[1] += factor * Ball(static_cast<double>(gamma[1]));
+    }
+    LinearValue sum;
+    for (const auto& [wave, gamma] : by_wave) {
+      add_linear(frame, sum, wave, gamma[0], gamma[1]);
+    }
+    return sum;
+  });
+}
+
+}  // namespace veritrack::checker

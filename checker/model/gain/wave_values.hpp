@@ -1,0 +1,26 @@
+// What sums of waves are where they do not depend on the phase of the signal: angles and linear values
+// (docs/gain-proof.md, section 2).
+#pragma once
+
+#include <optional>
+
+#include "checker/model/gain/linear_frame.hpp"
+#include "checker/model/gain/waves.hpp"
+
+namespace veritrack::checker {
+
+/// x + j y = g e^(j quarters pi/2) M, or its conjugate, with a positive g.
+struct TurnedWave {
+  Wave wave;
+  int quarters = 0;
+  bool is_conjugate = false;
+};
+/// Whether x + j y is such a number, with a factor that is certainly not 0.
+std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, const Waves& x);
+/// The value of the argument of x + j y, modulo 2 pi.
+int argument(LinearFrame& frame, const TurnedWave& wave);
+
+/// As a linear value. Throws NotCovered where a wave depends on the phase.
+int linear_value(LinearFrame& frame, const Waves& waves);
+
+}  // namespace veritrack::checker

@@ -1,0 +1,51 @@
+// Sums of waves of the samples' phase and of angles (docs/gain-proof.md, section 2): what samples, sines and
+// cosines and their products are before they are linear in anything. Their factors are exact, so that what
+// cancels is gone.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checker/model/gain/linear_frame.hpp"
+
+namespace veritrack::checker {
+
+/// |y|^length e^(j (turns arg y + sum of times L)), times named constants.
+struct Wave {
+  std::vector<int> constants;  ///< in order
+  int length = 0;
+  int turns = 0;
+  std::vector<std::pair<int, int>>
+      angles;  ///< the numbers of the values L, in order, and times that are not 0
+  auto operator<=>(const Wave&) const = default;
+};
+
+/// The sum of Re(conj(gamma) M), with gamma = (real, imaginary) in units of 2^-16, and no zeros. Of a wave
+/// and its conjugate one is there: that whose first number of turns or times is positive.
+using Waves = std::map<Wave, std::array<std::int64_t, 2>>;
+
+/// The samples: the real and the imaginary part of y.
+Waves sample_waves(std::size_t channel);
+/// cos and sin of a value.
+Waves cosine_wave(int value);
+Waves sine_wave(int value);
+Waves constant_wave(const ConstantFactors& constant);
+
+Waves sum(const Waves& x, const Waves& y);
+Waves negated(const Waves& x);
+Waves product(const Waves& x, const Waves& y);
+/// s if the sum is |y|^s and nothing else, s > 0.
+std::optional<int> power_of_length(const Waves& x);
+/// x/|y|^s.
+Waves divided_by_length(const Waves& x, int power);
+/// The same for the same waves, or sums of waves, only.
+std::string name_of(const Wave& wave);
+std::string name_of(const Waves& x);
+
+}  // namespace veritrack::checker

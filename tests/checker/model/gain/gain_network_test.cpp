@@ -1,0 +1,247 @@
+// The network of a loop against the loop itself, which these tests write out in doubles: a step from any
+// state near the steady one differs from the linear step by no more than the inputs, at their sizes.
+#include "checker/model/gain/gain_network.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/checker/model/gain/gain_loops.hpp"
+
+namespace veritrack::checker {
+namespace {
+
+using test::Loop;
+using State = std::vector<double>;
+constexpr double kPi = 3.14159265358979323846;
+
+double turned(double angle) {
+  return std::remainder(angle, 2.0 * kPi);
+}
+
+/// Whether a step of the loop is what the network says, with noise up to `noise` and deviations up to `size`.
+template <typename Step>
+bool covers(const Loop& loop, const Step& step, double noise, const State& size) {
+  const GainNetwork network = loop.network();
+  const std::size_t n = network.states();
+  std::mt19937 random(7);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<>(low, high)(random);
+  };
+  for (int trial = 0; trial < 2'000; ++trial) {
+    const double phase = draw(-4.0, 4.0);
+    const double omega = draw(loop.lowest, loop.highest);
+    const double slew = draw(-1e-4, 1e-4);
+    const std::complex<double> y =
+        std::polar(draw(loop.least_amplitude, loop.largest_amplitude), phase + omega) +
+        std::polar(noise * std::sqrt(draw(0.0, 1.0)), draw(-4.0, 4.0));
+    State xi(n);
+    State state(n);
+    const auto steady = [&](std::size_t i, double at, double frequency) {
+      return static_cast<double>(loop.steady[i].turns) * at + loop.steady[i].constant.near() +
+             loop.steady[i].per_frequency.near() * frequency;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      xi[i] = draw(-size[i], size[i]);
+      state[i] = steady(i, phase, omega) + xi[i];
+    }
+    const State next = step(state, y);
+    // Bounds on the forms here, in their order.
+    std::vector<double> sizes(network.inputs.size());
+    std::vector<Ball> bounds;
+    std::size_t known = 0;
+    const auto learn = [&](std::size_t to) {
+      for (; known < to; ++known) {
+        const GainInput& input = network.inputs[known];
+        std::vector<Ball> about;
+        for (const std::size_t form : input.about) {
+          about.push_back(bounds.at(form));
+        }
+        sizes[known] = (input.is_remainder() ? input.at_bounds(about) : input.size(Ball(noise), Ball(1e-4)))
+                           .upper_double();
+      }
+    };
+    for (const GainForm& form : network.forms) {
+      double bound = 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        bound += form.row[i].near() * xi[i];
+      }
+      bound = std::abs(bound);
+      for (const auto& [input, factor] : form.direct) {
+        learn(input + 1);
+        bound +=
+            std::hypot(abs(factor.first).upper_double(), abs(factor.second).upper_double()) * sizes[input];
+      }
+      bounds.emplace_back(bound + 1e-12);
+    }
+    learn(network.inputs.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      double deviation = next[i] - steady(i, phase + omega, omega + slew);
+      double spread = 0.0;
+      for (std::size_t j = 0; j < n; ++j) {
+        deviation -= network.matrix[i][j].near() * xi[j];
+        spread += network.matrix[i][j].radius().upper_double() * std::abs(xi[j]);
+      }
+      for (std::size_t l = 0; l < network.inputs.size(); ++l) {
+        const InputFactor& factor = network.inputs[l].column[i];
+        spread += std::hypot(abs(factor.first).upper_double(), abs(factor.second).upper_double()) * sizes[l];
+      }
+      if (i == 0) {
+        deviation = turned(deviation);  // the angle
+      }
+      if (!(std::abs(deviation) <= spread + 1e-9)) {
+        MESSAGE(i << ": " << deviation << " above " << spread);
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The angle of the sample from that of the state.
+double detector(const State& x, const std::complex<double>& y) {
+  return std::arg(y * std::polar(1.0, -x[0]));
+}
+
+TEST_CASE("the network of a loop covers its steps") {
+  CHECK(covers(test::motor_loop(),
+               [](const State& x, std::complex<double> y) {
+                 const double d = detector(x, y);
+                 return State{x[0] + (x[1] + 2000 * d) / 12500, x[1] + 30000 * d / 12500};
+               },
+               0.5, {1.0, 3.0}));
+  CHECK(covers(test::output_loop(),
+               [](const State& x, std::complex<double> y) {
+                 const double d = std::imag(y * std::polar(1.0, -x[0]));
+                 const double f = x[1] + 0.001 * d;
+                 return State{x[0] + f + 0.05 * d, f, f + 0.05 * d};
+               },
+               0.3, {2.0, 0.1, 0.1}));
+}
+
+/// A loop of two states with this detector, and k times it as the correction.
+Loop loop_with(const std::string& detector_lines) {
+  return {{"phase", "freq"},
+          {{"a", "0.1"}, {"b", "0.1"}},
+          detector_lines + "\nphase' = phase + freq + 0.1*d\nfreq' = freq + 0.01*d\n",
+          "freq",
+          {{1, 0.0, 1.0}, {0, 0.0, 1.0}}};
+}
+
+template <typename Detector>
+bool covers_detector(Loop loop, const std::string& lines, const Detector& value, double noise = 0.2,
+                     double size = 0.3) {
+  const Loop named = loop_with(lines);
+  loop.states = named.states;
+  loop.parameters = named.parameters;
+  loop.step = named.step;
+  loop.frequency = named.frequency;
+  loop.steady = named.steady;
+  return covers(loop,
+                [&](const State& x, std::complex<double> y) {
+                  const double d = value(std::abs(y), detector(x, y), x);
+                  return State{x[0] + x[1] + 0.1 * d, x[1] + 0.01 * d};
+                },
+                noise, {size, 0.05});
+}
+
+TEST_CASE("detectors of many kinds are covered, with amplitudes in a range") {
+  Loop range = loop_with("");
+  range.least_amplitude = 0.8;
+  range.largest_amplitude = 1.3;
+  const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
+  for (const Loop& loop : {loop_with(""), range}) {
+    CHECK(covers_detector(loop, parts + "d = s",
+                          [](double r, double t, const State&) { return r * std::sin(t); }));
+    CHECK(covers_detector(loop, parts + "d = s/sqrt(i^2 + q^2)",
+                          [](double, double t, const State&) { return std::sin(t); }));
+    CHECK(covers_detector(loop, parts + "d = s/(i*i + q*q)",
+                          [](double r, double t, const State&) { return std::sin(t) / r; }));
+    CHECK(covers_detector(loop, parts + "d = s*c", [](double r, double t, const State&) {
+      return r * r * std::sin(t) * std::cos(t);
+    }));
+    CHECK(
+        covers_detector(loop, parts + "d = s/c", [](double, double t, const State&) { return std::tan(t); }));
+    CHECK(covers_detector(loop, parts + "d = atan(s/c)", [](double, double t, const State&) { return t; }));
+    CHECK(
+        covers_detector(loop, parts + "d = -atan2(-s, c)", [](double, double t, const State&) { return t; }));
+    CHECK(covers_detector(loop, parts + "d = atan2(-c, s) + pi/2",
+                          [](double, double t, const State&) { return t; }));
+    CHECK(covers_detector(loop, parts + "d = atan2(0.3*s, 0.3*c)",
+                          [](double, double t, const State&) { return t; }));
+    CHECK(covers_detector(loop, "d = sin(atan2(q, i) - phase)",
+                          [](double, double t, const State&) { return std::sin(t); }));
+    CHECK(covers_detector(loop, parts + "d = s*sqrt(1.5 + c)*exp(freq)",
+                          [](double r, double t, const State& x) {
+                            return r * std::sin(t) * std::sqrt(1.5 + r * std::cos(t)) * std::exp(x[1]);
+                          }));
+    CHECK(covers_detector(
+        loop, parts + "e = stays_within(s, -2, 2)\nd = asin(e/4) + atan(e) - log(2 + e)/3 + log(2)/3",
+        [](double r, double t, const State&) {
+          const double e = r * std::sin(t);
+          return std::asin(e / 4) + std::atan(e) - std::log(2 + e) / 3 + std::log(2.0) / 3;
+        }));
+    CHECK(covers_detector(loop, parts + "d = s/(1 + freq^2) + tan(s/3) - acos(s/5) + pi/2",
+                          [](double r, double t, const State& x) {
+                            const double e = r * std::sin(t);
+                            return e / (1 + x[1] * x[1]) + std::tan(e / 3) - std::acos(e / 5) + kPi / 2;
+                          }));
+  }
+}
+
+TEST_CASE("what the rules do not cover says nothing") {
+  const auto is_covered = [](const std::string& lines) { return loop_with(lines).is_covered(); };
+  const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
+  CHECK(is_covered(parts + "d = s"));
+  CHECK_FALSE(is_covered("d = q*cos(phase)"));                     // twice the phase is left
+  CHECK_FALSE(is_covered("d = q*cos(phase) - 0.9*i*sin(phase)"));  // one channel is stronger
+  CHECK_FALSE(is_covered("d = q*cos(2*phase) - i*sin(2*phase)"));  // not the phase of the signal
+  CHECK_FALSE(is_covered("d = q - phase"));                        // an angle as a number
+  CHECK_FALSE(is_covered("d = 0.5*phase"));
+  CHECK_FALSE(is_covered("d = atan2(q, i)/2 - phase/2"));  // halves of angles known modulo 2 pi
+  CHECK_FALSE(is_covered(parts + "d = atan2(s, 0.9*c)"));  // not of one wave
+  CHECK_FALSE(is_covered(parts + "d = stays_within(phase, -9, 9)"));
+  CHECK_FALSE(is_covered(parts + "d = sqrt(s - 2)"));
+  CHECK_FALSE(is_covered("d = atan2(q, i) - phase"));  // a state known modulo 2 pi
+  Loop other = loop_with(parts + "d = s");
+  other.frequency = "freq + 0*phase";
+  CHECK_FALSE(other.is_covered());
+  other = loop_with(parts + "d = s");
+  other.steady[0].turns = 2;
+  CHECK_FALSE(other.is_covered());
+  other.steady[0].turns = 0;
+  CHECK_FALSE(other.is_covered());
+}
+
+TEST_CASE("constants are the same by their place, not by their balls") {
+  // a and b are both 0.1: each is the decimal or the double, and they may differ.
+  CHECK(loop_with("d = a*q*cos(phase) - a*i*sin(phase)").is_covered());
+  CHECK(loop_with("d = q*cos(phase)*a*b - sin(phase)*(b*i)*a").is_covered());
+  CHECK_FALSE(loop_with("d = a*q*cos(phase) - b*i*sin(phase)").is_covered());
+  // 0.5 is one number.
+  Loop exact = loop_with("d = a*q*cos(phase) - b*i*sin(phase)");
+  exact.parameters = {{"a", "0.5"}, {"b", "0.50"}};
+  CHECK(exact.is_covered());
+}
+
+TEST_CASE("remainders are about what is computed before") {
+  for (const Loop& loop :
+       {test::motor_loop(), test::output_loop(), test::third_order_loop(), test::gnss_loop()}) {
+    const GainNetwork network = loop.network();
+    for (std::size_t input = 0; input < network.inputs.size(); ++input) {
+      for (const std::size_t form : network.inputs[input].about) {
+        for (const auto& direct : network.forms[form].direct) {
+          CHECK(direct.first < input);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace veritrack::checker

@@ -24,6 +24,7 @@ inline const std::string kCaptureTime = "model/capture-time";
 inline const std::string kLimits = "model/limits";
 inline const std::string kSlewLimit = "model/slew-limit";
 inline const std::string kSteadyState = "model/steady-state";
+inline const std::string kStability = "model/stability";
 inline const std::string kLosingLock = "model/probability-of-losing-lock";
 inline const std::string kLock = "model/losing-lock";
 inline const std::string kLowestSnr = "model/lowest-snr";

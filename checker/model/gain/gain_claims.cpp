@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "checker/model/false_lock.hpp"
+#include "checker/model/gain/stability.hpp"
 
 namespace veritrack::checker {
 
@@ -19,19 +20,20 @@ GainClaims::GainClaims(const Tree& certificate, const ModelDesign& design, const
 }
 
 std::optional<GainErrors> GainClaims::errors(const Ball& noise, const Ball& slew) const {
-  return gains_ == nullptr ? std::nullopt
-                           : gains_->bounds.errors(noise, slew, std::vector<Ball>(gains_->network.states()));
+  return gains_ == nullptr || !gains_->bounds
+             ? std::nullopt
+             : gains_->bounds->errors(noise, slew, std::vector<Ball>(gains_->network.states()));
 }
 
 std::optional<GainErrors> GainClaims::assumed_errors() const {
-  return gains_ == nullptr || design_->start_within.empty()
+  return gains_ == nullptr || !gains_->bounds || design_->start_within.empty()
              ? errors(design_->noise, design_->slew)
-             : gains_->bounds.errors(design_->noise, design_->slew, design_->start_within);
+             : gains_->bounds->errors(design_->noise, design_->slew, design_->start_within);
 }
 
 std::optional<GainErrors> GainClaims::errors_from(const Ball& reach, const Ball& noise,
                                                   const Ball& slew) const {
-  if (gains_ == nullptr || !certainly_positive(reach)) {
+  if (gains_ == nullptr || !gains_->bounds || !certainly_positive(reach)) {
     return std::nullopt;
   }
   const GainNetwork& network = gains_->network;
@@ -45,7 +47,7 @@ std::optional<GainErrors> GainClaims::errors_from(const Ball& reach, const Ball&
     ++states;
     start[i] = (reach + abs(network.bias)) / abs(frequency.row[i]);
   }
-  return states == 1 && frequency.direct.empty() ? gains_->bounds.errors(noise, slew, start) : std::nullopt;
+  return states == 1 && frequency.direct.empty() ? gains_->bounds->errors(noise, slew, start) : std::nullopt;
 }
 
 bool GainClaims::is_lock(const std::optional<GainErrors>& errors, const Ball& error) const {
@@ -195,12 +197,40 @@ Claim GainClaims::steady_state(const Tree& claim) const {
   return found;
 }
 
+Claim GainClaims::stability(const Tree& claim) const {
+  Claim found;
+  found.is_summary = true;
+  found.hypotheses = words_.constant_tone() + ", without noise";
+  if (const Tree* growth = claim.find("growth")) {
+    const Ball factor = written(claim, "growth");
+    found.statement =
+        found.hypotheses +
+        ", the loop is stable: to first order, no error about the steady state of the certificate "
+        "grows by a factor of " +
+        growth->text() + " or more each sample.";
+    const bool grows = gains_ != nullptr && certainly_at_most(one, factor) &&
+                       an_eigenvalue_beyond(gains_->network.matrix, factor);
+    found.verdict = grows ? Verdict::refuted : Verdict::undecided;
+    return found;
+  }
+  const Ball factor = written(claim, "decay");
+  found.statement =
+      found.hypotheses +
+      ", the loop is stable: to first order, errors about the steady state of the certificate shrink "
+      "in the long run by a factor of at most " +
+      claim.at("decay").text() + " each sample.";
+  found.verdict = proved_if(gains_ != nullptr && certainly_less(factor, one) &&
+                            all_eigenvalues_within(gains_->network.matrix, factor));
+  return found;
+}
+
 Claim GainClaims::check(const Tree& claim, Objections& objections) const {
   const std::string& id = claim.at("id").text();
   const std::vector<Requirement> asked = required();
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
-  const bool is_told = id == kGuarantee || id == kLimits || id == kSlewLimit || id == kSteadyState;
+  const bool is_told =
+      id == kGuarantee || id == kLimits || id == kSlewLimit || id == kSteadyState || id == kStability;
   if (!is_told && (!is_asked || id == kCaptureTime)) {
     objections.emplace_back(is_asked ? "gains do not decide this" : "[require] does not ask for this");
     return {};
@@ -209,6 +239,7 @@ Claim GainClaims::check(const Tree& claim, Objections& objections) const {
                 : id == kLimits      ? limits(claim)
                 : id == kSlewLimit   ? slew_limit(claim)
                 : id == kSteadyState ? steady_state(claim)
+                : id == kStability   ? stability(claim)
                                      : required_claim(claim);
   check_claim(claim, found, objections);
   return found;

@@ -17,9 +17,8 @@ namespace veritrack::checker {
 /// What a certificate by gains establishes.
 struct Gains {
   GainNetwork network;
-  GainBounds bounds;
-  Gains(GainNetwork errors, std::size_t horizon, std::size_t blocks)
-      : network(std::move(errors)), bounds(network, horizon, blocks) {}
+  std::optional<GainBounds> bounds;  ///< none where the certificate names no horizon
+  explicit Gains(GainNetwork errors) : network(std::move(errors)) {}
   Gains(const Gains&) = delete;
   Gains& operator=(const Gains&) = delete;
 };
@@ -59,6 +58,7 @@ class GainClaims {
   [[nodiscard]] Claim limits(const Tree& claim) const;
   [[nodiscard]] Claim slew_limit(const Tree& claim) const;
   [[nodiscard]] Claim steady_state(const Tree& claim) const;
+  [[nodiscard]] Claim stability(const Tree& claim) const;
 
   const Tree* tree_;  ///< the design
   const ModelDesign* design_;

@@ -35,8 +35,9 @@ bool is_tone_of_two_channels(const Tree& model) {
 std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const ModelRecursion& recursion,
                                   const ModelDesign& design, Objections& objections) {
   const std::vector<SteadyState> steady = read_steady_state(gains.at("steady_state"), objections);
-  const long horizon = gains.at("horizon").integer();
-  const long blocks = gains.at("blocks").integer();
+  const bool has_bounds = gains.find("horizon") != nullptr;  // none of an unstable loop
+  const long horizon = has_bounds ? gains.at("horizon").integer() : 1;
+  const long blocks = has_bounds ? gains.at("blocks").integer() : 1;
   if (blocks < 1 || blocks > kMostBlocks || horizon < 1 || horizon > kLongestHorizon ||
       horizon % blocks != 0) {
     objections.emplace_back("the blocks do not divide the horizon, or there are too many");
@@ -49,10 +50,13 @@ std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const Mo
     return nullptr;
   }
   try {
-    auto result =
-        std::make_unique<Gains>(gain_network(recursion, design, steady), static_cast<std::size_t>(horizon),
-                                static_cast<std::size_t>(blocks));
-    if (result->bounds.is_certain()) {
+    auto result = std::make_unique<Gains>(gain_network(recursion, design, steady));
+    if (!has_bounds) {
+      return result;
+    }
+    result->bounds.emplace(result->network, static_cast<std::size_t>(horizon),
+                           static_cast<std::size_t>(blocks));
+    if (result->bounds->is_certain()) {
       return result;
     }
     objections.emplace_back("the loop is not stable, or the horizon is too short");

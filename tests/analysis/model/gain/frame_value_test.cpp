@@ -14,7 +14,8 @@ namespace veritrack::model {
 namespace {
 
 using rigor::Interval;
-using std::acos, std::asin, std::atan, std::atan2, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tan;
+using std::acos, std::asin, std::atan, std::atan2, std::cos, std::exp, std::log, std::sin, std::sqrt,
+    std::tan;
 
 /// The operands of a formula: two states (an angle, a number), two samples and two constants.
 template <typename Scalar>

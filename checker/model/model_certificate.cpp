@@ -137,7 +137,10 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   Objections objections;
   ModelRecursion recursion(tree.at("model"));
   const bool by_gains = certificate.find("gains") != nullptr;
-  const ModelDesign design = read_model_design(tree, recursion, objections, by_gains);
+  // One channel does not tell a frequency from its negative, and tubes are for positive ones.
+  const bool both_signs =
+      recursion.samples() == 2 && (by_gains || certificate.at("tubes").elements().empty());
+  const ModelDesign design = read_model_design(tree, recursion, objections, both_signs);
   objections.insert(objections.end(), recursion.objections().begin(), recursion.objections().end());
   if (states_of_tubes(recursion, recursion.filtered() > 0) > kMostStates) {
     objections.emplace_back("too many states");

@@ -204,7 +204,8 @@ std::optional<Eigen::VectorXd> steady_at(const TrackedTone& tone, double omega, 
     }
     state -= change;
     const double size = change.cwiseAbs().cwiseQuotient(state.cwiseAbs().cwiseMax(1e-6)).maxCoeff();
-    if (size < 1e-14 || (size < 1e-9 && size >= last)) {
+    // As near as rounding lets it come.
+    if (size < 1e-14 || (size < 1e-6 && size >= 0.5 * last)) {
       return state;
     }
     last = size;

@@ -8,7 +8,6 @@ namespace veritrack::checker {
 
 namespace {
 
-constexpr double kGrowth = 1.0 + 0x1p-20;
 constexpr int kMostRounds = 3000;
 
 }  // namespace

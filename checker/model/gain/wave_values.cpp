@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string>
 
 namespace veritrack::checker {
 
@@ -83,6 +84,30 @@ int argument(LinearFrame& frame, const TurnedWave& turned) {
 
 namespace {
 
+/// Of c0 cos(lambda) + c1 sin(lambda) beyond c0 + c1 lambda.
+struct WaveRemainder {
+  std::string name;
+  int angle;
+  Ball even, odd;  ///< |c0| and |c1|
+};
+
+void add_remainder(LinearFrame& frame, LinearValue& sum, const WaveRemainder& remainder, const Ball& factor) {
+  if (certainly_equal(factor, zero)) {
+    return;
+  }
+  const std::size_t input = frame.named_input(remainder.name, [&] {
+    return FrameInput{nullptr,
+                      {remainder.angle},
+                      [even = remainder.even, odd = remainder.odd](const std::vector<Ball>& bounds) {
+                        const Ball& y = bounds.at(0);
+                        return even * (one - cos(min(y, pi()))) + odd * (y - sin(y));
+                      }};
+  });
+  LinearValue unit;
+  unit.deviations[input] = {one, zero};
+  add_deviations(sum, unit, factor);
+}
+
 /// Adds Re(conj(gamma) M) as a linear value; gamma = (real, imaginary).
 void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ball& real,
                 const Ball& imaginary) {
@@ -111,21 +136,10 @@ void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ba
     add_deviations(sum, unit, one);
   }
   if (!phase.deviations.empty()) {
-    // cos(lambda) - 1 and sin(lambda) - lambda, the same for all waves of this angle.
-    const auto remainder = [&](const char* name, const Ball& factor, Ball (*size)(const Ball&)) {
-      if (certainly_equal(factor, zero)) {
-        return;
-      }
-      const std::size_t input = frame.named_input(name + std::to_string(angle), [&] {
-        return FrameInput{
-            nullptr, {angle}, [size](const std::vector<Ball>& bounds) { return size(bounds.at(0)); }};
-      });
-      LinearValue unit;
-      unit.deviations[input] = {one, zero};
-      add_deviations(sum, unit, factor);
-    };
-    remainder("cosine ", c0, [](const Ball& y) { return one - cos(min(y, pi())); });
-    remainder("sine ", c1, [](const Ball& y) { return y - sin(y); });
+    const Ball of_cosine = abs(amplitude * cos(b));
+    const Ball of_sine = abs(amplitude * sin(b));
+    add_remainder(frame, sum, {"real part of " + name_of(wave), angle, of_cosine, of_sine}, real);
+    add_remainder(frame, sum, {"imaginary part of " + name_of(wave), angle, of_sine, of_cosine}, imaginary);
   }
 }
 

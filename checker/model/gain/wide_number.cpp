@@ -12,7 +12,6 @@ constexpr double kUnderflow = 0x1p-1000;
 /// Of a sum of products of any sign, relative to the sum of absolute values: far above 33 roundings.
 constexpr double kError = 0x1p-45;
 const double kInfinity = HUGE_VAL;
-constexpr double kOutward = 1.0 + 0x1p-20;
 
 }  // namespace
 
@@ -108,7 +107,7 @@ std::optional<std::vector<double>> closed(const Table& defect, const std::vector
       return bound;
     }
     for (std::size_t i = 0; i < given.size(); ++i) {
-      bound[i] = next[i] * kOutward;
+      bound[i] = next[i] * kGrowth;
     }
   }
   return std::nullopt;

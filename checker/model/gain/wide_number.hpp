@@ -18,6 +18,9 @@ struct WideNumber {
 using WideRow = std::vector<WideNumber>;
 using Table = std::vector<std::vector<double>>;
 
+/// By how much bounds grow from round to round, so that a search for them ends.
+constexpr double kGrowth = 1.0 + 0x1p-20;
+
 /// Not below a sum that was computed as `sum`, of numbers that are not negative.
 double up(double sum);
 /// Not below the product of numbers that are not negative; exactly 0 where one of them is.

@@ -56,6 +56,9 @@ From tests/certificates/model-moving.toml, a loop with an angle, and a frequency
 model-moving      its tube for what is assumed, in two cells
 From tests/certificates/model-constant-amplitude.toml, such a loop, and a constant amplitude in a range:
 model-constant-amplitude  its tubes for what is assumed, for two parts of the range
+From tests/certificates/model-gains.toml and model-gains-unstable.toml, loops of two channels, as they are:
+model-gains       all claims that gains decide
+model-gains-unstable  a loop that is REFUTED
 From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
@@ -482,6 +485,8 @@ KINDS = {
     "model-from-rest": model_from_rest,
     "model-moving": model_moving,
     "model-constant-amplitude": model_moving,
+    "model-gains": lambda certificate: None,
+    "model-gains-unstable": lambda certificate: None,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
     "model-filter-gaussian": model_gaussian,

@@ -58,6 +58,20 @@ Eigen::VectorXd size_of(const Eigen::MatrixXd& states, const std::vector<bool>& 
   return size;
 }
 
+/// The effect on each state of a sample that is wrong by the whole amplitude, within as many steps as there are
+/// states: a state that rests at 0 has no other size.
+Eigen::VectorXd response_of(const TrackedTone& tone, const PeriodicRun& run) {
+  const Eigen::Index n = run.states().rows();
+  const Eigen::MatrixXd slope = tone.step.jacobian(run.states().col(0), run.samples().col(0));
+  Eigen::MatrixXd effect = slope.rightCols(slope.cols() - n);
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index k = 0; k < n && effect.allFinite(); ++k) {
+    response = response.cwiseMax(effect.rowwise().norm());
+    effect = (slope.leftCols(n) * effect).eval();
+  }
+  return tone.amplitude * response;
+}
+
 bool is_small(const Eigen::VectorXd& change, const Eigen::VectorXd& size) {
   constexpr double kReturned = 1e-9;
   return (change.cwiseAbs().array() <= kReturned * size.array()).all();
@@ -138,7 +152,7 @@ std::optional<Settling> settle(const TrackedTone& tone, const SteadyStateSetting
       result.undefined = objection_of(tone, run);
       return std::nullopt;
     }
-    settling.size = size_now.cwiseMax(first_size);
+    settling.size = size_now.cwiseMax(first_size).cwiseMax(response_of(tone, run));
     result.drift = history.change(1, is_angle);
     result.drift.cwiseAbs().cwiseQuotient(settling.size.cwiseMax(1e-300)).maxCoeff(&result.slowest_state);
     settling.returns = is_small(result.drift, settling.size);

@@ -63,6 +63,37 @@ TEST_CASE("a linear filter settles on its transfer function") {
   }
 }
 
+/// A loop of two channels with a second integrator, which rests at 0: states theta, w, rate.
+ExampleTracker third_order_loop() {
+  ExampleTracker example;
+  example.recursion.constants = 3;
+  example.recursion.states = 3;
+  example.recursion.samples = 2;
+  example.recursion.is_angle = {true, false, false};
+  StraightLineProgram step(8);
+  const int theta = 3, w = 4, rate = 5, y1 = 6, y2 = 7;
+  const auto product = [&](int a, int b) { return step.append(Operation::multiply, a, b); };
+  const auto sum = [&](int a, int b) { return step.append(Operation::add, a, b); };
+  const int error = step.append(Operation::subtract, product(y2, step.append(Operation::cos, theta)),
+                                product(y1, step.append(Operation::sin, theta)));
+  const int next_rate = sum(rate, product(2, error));
+  const int next_w = sum(sum(w, next_rate), product(1, error));
+  step.add_result(sum(sum(theta, next_w), product(0, error)));
+  step.add_result(next_w);
+  step.add_result(next_rate);
+  example.recursion.step = step;
+  example.recursion.frequency = test::frequency_of_state(3, 3, 1);
+  example.constants = {0.2, 0.01, 0.0002};
+  example.start = [](double omega) { return std::vector<double>{omega, omega, 0.0}; };
+  return example;
+}
+
+TEST_CASE("a state that rests at 0, apart from rounding, is at rest") {
+  const SteadyState steady = find_steady_state(tone_of(third_order_loop(), true), 0.3);
+  CHECK(steady.outcome == SteadyStateOutcome::settled);
+  CHECK(std::fabs(steady.mean_error) < 1e-9);
+}
+
 TEST_CASE("what does not settle is named, with its numbers") {
   SUBCASE("diverges") {
     const SteadyState steady = find_steady_state(tone_of(low_pass(1.1)), 0.4);

@@ -11,6 +11,8 @@ namespace veritrack::checker {
 
 namespace {
 
+constexpr std::size_t kMostForms = 128;
+
 /// The forms of values of a frame, by their numbers.
 class Forms {
  public:
@@ -19,6 +21,9 @@ class Forms {
   std::size_t of(int value) {
     const auto [place, is_new] = places_.try_emplace(value, forms_->size());
     if (is_new) {
+      if (forms_->size() >= kMostForms) {
+        throw NotCovered("too many forms");
+      }
       GainForm form;
       form.row.assign(frame_->states(), zero);
       for (const auto& [source, factor] : frame_->at(value).deviations) {

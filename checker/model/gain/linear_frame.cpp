@@ -1,7 +1,6 @@
 #include "checker/model/gain/linear_frame.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -11,44 +10,16 @@ namespace veritrack::checker {
 
 namespace {
 
-constexpr std::int64_t kLargestExact = kExactUnit << 15;
 constexpr std::size_t kMostValues = 20'000;
 constexpr std::size_t kMostInputs = 96;
 
-/// In units of 2^-16, if it is a whole number of them and not too large.
-std::optional<std::int64_t> exact_units(const Ball& value) {
-  const double units = value.near() * static_cast<double>(kExactUnit);
-  // cannot bind (value, near): only an exact number is equal to a double.
-  if (!certainly_equal(value, Ball(value.near())) || std::floor(units) != units ||
-      std::abs(units) >= static_cast<double>(kLargestExact)) {
-    return std::nullopt;
-  }
-  return static_cast<std::int64_t>(units);
-}
+}  // namespace
 
 void require_plain(const LinearValue& x) {
   if (!x.is_plain()) {
     throw NotCovered(
         "an angle, or a value that depends on the phase, is used other than in sums, sin and cos");
   }
-}
-
-}  // namespace
-
-std::int64_t exact_product(std::int64_t x, std::int64_t y, int halves) {
-  const std::int64_t product = x * y;  // below 2^62
-  const std::int64_t unit = kExactUnit << halves;
-  if (product % unit != 0 || std::llabs(product / unit) >= kLargestExact) {
-    throw NotCovered("a product of exact numbers that is none");
-  }
-  return product / unit;
-}
-
-std::int64_t exact_sum(std::int64_t x, std::int64_t y) {
-  if (std::llabs(x + y) >= kLargestExact) {
-    throw NotCovered("a sum of exact numbers that is too large");
-  }
-  return x + y;
 }
 
 void add_deviations(LinearValue& sum, const LinearValue& x, const Ball& factor) {
@@ -118,16 +89,6 @@ int LinearFrame::state(std::size_t index, const LinearValue& value) {
   return made("state " + std::to_string(index), [&] { return value; });
 }
 
-int LinearFrame::sample_phase() {
-  return made("sample phase", [] { return LinearValue{1, zero, one, {}, true}; });
-}
-
-int LinearFrame::quarter_turns(int count) {
-  return made("quarters " + std::to_string(count), [&] {
-    return LinearValue{0, pi() * Ball(count) * half, zero, {}, false};
-  });
-}
-
 std::size_t LinearFrame::add_input(FrameInput input) {
   if (inputs_.size() >= kMostInputs) {
     throw NotCovered("too many inputs");
@@ -142,17 +103,6 @@ std::size_t LinearFrame::named_input(const std::string& name, const std::functio
     return found->second;
   }
   return input_names_[name] = add_input(make());
-}
-
-int LinearFrame::noise_angle() {
-  return made("noise angle", [this] {
-    const Ball least = least_;
-    const std::size_t source =
-        add_input({[least](const Ball& noise) { return arcsine(noise / least); }, {}, nullptr});
-    LinearValue value;
-    value.deviations[source] = {one, zero};
-    return value;
-  });
 }
 
 std::optional<long> LinearFrame::whole(int x) const {
@@ -281,45 +231,6 @@ LinearValue LinearFrame::value_of_function(const std::string& name, int x) {
 
 int LinearFrame::function(const std::string& name, int x) {
   return made(name + " " + std::to_string(x), [&] { return value_of_function(name, x); });
-}
-
-void LinearFrame::limit(int x, const Ball& low, const Ball& high) {
-  limits_.push_back({x, base(at(x)), low, high});
-}
-
-int LinearFrame::stays_within(int x, int low, int high) {
-  for (const int each : {x, low, high}) {
-    require_plain(at(each));
-  }
-  const int least = sum(x, negated(low));
-  const int most = sum(high, negated(x));
-  // 2^64 is no limit.
-  limit(least, zero, Ball(0x1p64));
-  limit(most, zero, Ball(0x1p64));
-  return x;
-}
-
-int LinearFrame::modulo_turn(int x) {
-  return made("modulo " + std::to_string(x), [&] {
-    LinearValue value = at(x);
-    value.is_modulo_turn = true;
-    return value;
-  });
-}
-
-int LinearFrame::principal(int x, const Ball& period) {
-  const std::string name = "principal " + period.text(6) + " " + std::to_string(x);
-  const bool is_new = !names_.contains(name);
-  const int result = made(name, [&] {
-    LinearValue value = at(x);
-    value.constant -= Ball(std::round((base(value) / period).near())) * period;
-    value.is_modulo_turn = false;
-    return value;
-  });
-  if (is_new) {
-    limit(result, -(period * half), period * half);
-  }
-  return result;
 }
 
 }  // namespace veritrack::checker

@@ -3,22 +3,16 @@
 // made once, so that a value is known by its number.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "checker/model/gain/exact_number.hpp"
 #include "checker/numbers/ball.hpp"
 
 namespace veritrack::checker {
-
-/// The rules of the frame do not cover a step: the method says nothing about it.
-struct NotCovered : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// The factors of the two components of an input; an input of one component has the first alone.
 struct InputFactor {
@@ -40,17 +34,6 @@ struct LinearValue {
     return is_plain() && deviations.empty() && certainly_equal(per_frequency, zero);
   }
 };
-
-/// An exact number, in units of 2^-16, times constants that are known by their numbers.
-struct ConstantFactors {
-  std::int64_t exact = 0;
-  std::vector<int> named;  ///< in order
-};
-constexpr std::int64_t kExactUnit = 65'536;
-/// The product in these units. Throws NotCovered unless it is one, below 2^15; of `halves` factors 1/2 more.
-std::int64_t exact_product(std::int64_t x, std::int64_t y, int halves = 0);
-/// Throws NotCovered if it is 2^15 or more.
-std::int64_t exact_sum(std::int64_t x, std::int64_t y);
 
 /// What comes from outside of the linear recursion, one for each sample: noise, or a remainder.
 struct FrameInput {
@@ -135,6 +118,8 @@ class LinearFrame {
   std::vector<FrameLimit> limits_;
 };
 
+/// Throws NotCovered where a value is not plain.
+void require_plain(const LinearValue& x);
 /// The deviations of x times a number, added to those of `sum`.
 void add_deviations(LinearValue& sum, const LinearValue& x, const Ball& factor);
 

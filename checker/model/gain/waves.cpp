@@ -12,7 +12,7 @@ constexpr int kLargestPower = 64;
 
 /// Adds Re(conj(gamma) M).
 void add_wave(Waves& sum, Wave wave, std::array<std::int64_t, 2> gamma) {
-  spend(10);
+  spend(50);
   std::erase_if(wave.angles, [](const auto& angle) { return angle.second == 0; });
   const int first = wave.turns != 0 ? wave.turns : wave.angles.empty() ? 0 : wave.angles.front().second;
   if (first < 0) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "tests/checker/model/gain/gain_loops.hpp"
@@ -149,6 +150,62 @@ TEST_CASE("a loop with a sine is never beyond its bound") {
   }
   CHECK(most <= errors->for_ever().upper_double());
   CHECK(most >= 0.5 * errors->for_ever().near());
+}
+
+TEST_CASE("a start far off in a loop with a sine is followed, block by block") {
+  const GainNetwork network = test::output_loop().network();
+  for (const auto& [horizon, blocks] :
+       std::vector<std::pair<std::size_t, std::size_t>>{{2048, 256}, {128, 16}}) {
+    const GainBounds bounds(network, horizon, blocks);
+    REQUIRE(bounds.is_certain());
+    const auto errors = bounds.errors(zero, zero, {Ball(1.0), zero, zero});
+    REQUIRE(errors.has_value());
+    double phase = -1.0;
+    double frequency = 0.0;
+    double out = 0.0;
+    for (int k = 0; k < 3000; ++k) {
+      const double bound = errors->from(Ball(k)).upper_double();
+      if (!(std::abs(out) <= bound)) {
+        REQUIRE(std::abs(out) <= bound);
+      }
+      const double d = -std::sin(phase);
+      frequency += 0.001 * d;
+      out = frequency + 0.05 * d;
+      phase += out;
+    }
+  }
+}
+
+TEST_CASE("a short horizon gives larger bounds, which are true as well") {
+  const GainNetwork network = test::motor_loop().network();
+  std::vector<double> response;
+  Errors after;
+  after.step(1e-3);
+  for (int k = 0; k < 16000; ++k) {
+    response.push_back(after.frequency / 1e-3);
+    after.step(0.0);
+  }
+  Errors attacked;
+  for (std::size_t k = response.size(); k-- > 0;) {
+    attacked.step(response[k] > 0.0 ? std::asin(0.1) : -std::asin(0.1));
+  }
+  for (const std::size_t horizon : {1024U, 2048U, 4096U}) {
+    const GainBounds bounds(network, horizon, 32);
+    REQUIRE(bounds.is_certain());
+    const auto noisy = bounds.errors(Ball(0.1), zero, kSteady);
+    REQUIRE(noisy.has_value());
+    CHECK(attacked.frequency <= noisy->for_ever().upper_double());
+    const auto started = bounds.errors(zero, zero, {Ball(0.1), Ball(10.0)});
+    REQUIRE(started.has_value());
+    Errors x{-0.1, 10.0 / 12500};
+    for (int k = 0; k < 9000; ++k) {
+      const double bound = started->from(Ball(k)).upper_double();
+      if (!(std::abs(x.frequency) <= bound)) {
+        REQUIRE(std::abs(x.frequency) <= bound);
+      }
+      x.step(0.0);
+    }
+  }
 }
 
 TEST_CASE("too short a horizon and a loop that is not stable are refused") {

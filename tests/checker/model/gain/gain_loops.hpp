@@ -23,6 +23,7 @@ struct Loop {
   std::vector<SteadyState> steady;
   double lowest = 0.1, highest = 0.5;
   double least_amplitude = 1.0, largest_amplitude = 1.0;
+  std::vector<std::string> angles{"phase"};
 
   [[nodiscard]] Json model() const {
     Json list = Json::array();
@@ -31,7 +32,7 @@ struct Loop {
     }
     return {{"samples", {"i", "q"}},
             {"parameters", list},
-            {"angles", {"phase"}},
+            {"angles", angles},
             {"states", states},
             {"step", step},
             {"frequency", frequency},

@@ -16,6 +16,7 @@
 namespace veritrack::checker {
 namespace {
 
+using test::Json;
 using test::Loop;
 using State = std::vector<double>;
 constexpr double kPi = 3.14159265358979323846;
@@ -194,6 +195,37 @@ TEST_CASE("detectors of many kinds are covered, with amplitudes in a range") {
   }
 }
 
+TEST_CASE("without noise the remainders alone cover a step") {
+  const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
+  const auto covers_silent = [&](const std::string& lines, const auto& value) {
+    return covers_detector(loop_with(""), lines, value, 0.0, 1.0);
+  };
+  CHECK(covers_silent(parts + "d = s", [](double, double t, const State&) { return std::sin(t); }));
+  CHECK(covers_silent(parts + "d = c - 1", [](double, double t, const State&) { return std::cos(t) - 1.0; }));
+  CHECK(covers_silent(parts + "d = 0.3*s - 0.7*c + 0.7", [](double, double t, const State&) {
+    return 0.3 * std::sin(t) - 0.7 * std::cos(t) + 0.7;
+  }));
+  CHECK(covers_silent(parts + "e = stays_within(s, -9, 9)\nd = e*e",
+                      [](double, double t, const State&) { return std::sin(t) * std::sin(t); }));
+}
+
+TEST_CASE("a loop of frequency alone, by the angle between two samples") {
+  const Loop loop{
+      {"phase", "freq"},
+      Json::object(),
+      "a = atan2(q, i)\ne = a - phase - freq\nphase' = a\nfreq' = freq + 0.1*atan2(sin(e), cos(e))\n",
+      "freq",
+      {{1, 0.0, 0.0}, {0, 0.0, 1.0}},
+      -0.5,
+      0.5};
+  CHECK(covers(loop,
+               [](const State& x, std::complex<double> y) {
+                 const double a = std::arg(y);
+                 return State{a, x[1] + 0.1 * std::remainder(a - x[0] - x[1], 2.0 * kPi)};
+               },
+               0.3, {1.0, 0.5}));
+}
+
 TEST_CASE("what the rules do not cover says nothing") {
   const auto is_covered = [](const std::string& lines) { return loop_with(lines).is_covered(); };
   const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
@@ -216,6 +248,23 @@ TEST_CASE("what the rules do not cover says nothing") {
   CHECK_FALSE(other.is_covered());
   other.steady[0].turns = 0;
   CHECK_FALSE(other.is_covered());
+}
+
+TEST_CASE("a state turns as its steady state does, and is an angle if it is known modulo a turn") {
+  const auto with_extra = [](const std::string& line, long turns, const std::vector<std::string>& angles) {
+    Loop loop = loop_with("d = q*cos(phase) - i*sin(phase)\nextra' = " + line);
+    loop.states = {"phase", "freq", "extra"};
+    loop.steady.push_back({turns, 0.0, Ball(static_cast<double>(turns))});
+    loop.angles = angles;
+    return loop.is_covered();
+  };
+  CHECK(with_extra("atan2(q, i)", 1, {"phase", "extra"}));
+  CHECK_FALSE(with_extra("atan2(q, i)", 0, {"phase", "extra"}));
+  CHECK_FALSE(with_extra("atan2(q, i)", 2, {"phase", "extra"}));
+  CHECK_FALSE(with_extra("atan2(q, i)", 1, {"phase"}));
+  CHECK(with_extra("atan2(q, i) - phase", 0, {"phase", "extra"}));
+  CHECK_FALSE(with_extra("atan2(q, i) - phase", 0, {"phase"}));
+  CHECK_FALSE(with_extra("q", 0, {"phase"}));
 }
 
 TEST_CASE("constants are the same by their place, not by their balls") {

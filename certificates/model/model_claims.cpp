@@ -493,7 +493,7 @@ class ModelClaims {
   }
   /// `is_met`: the requirement is proved for the frequencies that the set covers.
   [[nodiscard]] std::string objection_of(const ProvedSet& set, bool is_met = false) const {
-    std::string text = "No set of tubes was proved for the whole band";
+    std::string text = sets_->gains ? "Not proved" : "No set of tubes was proved for the whole band";
     if (const Scope scope = scope_of(set); scope.part) {
       text = fmt::format("{} over {} to {} {} only", is_met ? "Proved" : "A set of tubes was proved",
                          scope.part->from, scope.part->to, words_.unit());

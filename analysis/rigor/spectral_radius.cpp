@@ -1,6 +1,8 @@
 #include "analysis/rigor/spectral_radius.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace veritrack::rigor {
@@ -18,6 +20,16 @@ SmallMatrix small(const MatrixView& matrix) {
 
 double spectral_radius(const MatrixView& matrix) {
   return small(matrix).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+std::vector<std::complex<double>> eigenvalues_by_size(const MatrixView& matrix) {
+  const auto found = small(matrix).eigenvalues();
+  std::vector<std::complex<double>> sorted(found.begin(), found.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    const double difference = std::abs(a) - std::abs(b);
+    return std::fabs(difference) > 1e-9 * std::abs(a) ? difference > 0.0 : a.imag() > b.imag();
+  });
+  return sorted;
 }
 
 double largest_argument(const MatrixView& matrix) {

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "analysis/model/gain/gain_attack.hpp"
+#include "analysis/model/gain/linear_loop.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/loop_stability.hpp"
+#include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/frequency_units.hpp"
 
@@ -31,8 +34,11 @@ std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions
     }
   };
   add(fmt::format("noise of at most {}", assume.noise.text), budget.noise);
-  add(fmt::format("slew of at most {}", slew_words(assume.slew)), budget.slew);
+  add(fmt::format("slew of at most {} {}", assume.slew.text,
+                  assume.slew_in_hertz_per_second ? "Hz per second" : "rad/sample per sample"),
+      budget.slew);
   add("curvature of the loop's functions at these errors", budget.remainders);
+  add("what turns with the signal, to first order", budget.ripple);
   add("bias of the steady state, and the rounding of the certificate", budget.steady_state);
   rows.push_back({"together", units.at_most(bounds.long_run), "100 %"});
   return "The frequency error in the long run, by cause (each at most; they are worst cases of the same "
@@ -89,6 +95,66 @@ std::string steady_state_table(const model::GainProof& proof, const Model& model
          markdown::table({"State", "Is"}, rows) + "\n";
 }
 
+/// The first sample from which on the share stays within 2 % of 1.
+std::size_t settled_from(const std::vector<double>& share) {
+  constexpr double kNear = 0.02;
+  std::size_t from = share.size();
+  while (from > 0 && std::fabs(share[from - 1] - 1.0) <= kNear) {
+    --from;
+  }
+  return from;
+}
+
+/// "82.6 samples (6.6 ms)".
+std::string duration(double samples, const std::optional<Number>& rate) {
+  const std::string text = fmt::format("{:.4g} samples", samples);
+  if (!rate) {
+    return text;
+  }
+  const double seconds = samples / rate->nearest;
+  return text +
+         (seconds < 1.0 ? fmt::format(" ({:.3g} ms)", 1e3 * seconds) : fmt::format(" ({:.3g} s)", seconds));
+}
+
+/// Modes, the response to a step, noise and margins of the linear loop.
+std::string linear_table(const model::GainProof& proof, const ModelAssumptions& assume,
+                         const FrequencyUnits& units) {
+  const model::LoopNetwork& network = proof.gains->network();
+  const linear::LinearLoop loop = model::linear_loop(network);
+  std::vector<std::vector<std::string>> rows;
+  const auto in_units = [&](double radians) {
+    return fmt::format("{:.4g} rad/sample{}", radians,
+                       units.has_hertz() ? fmt::format(" ({:.4g} Hz)", units.drawn(radians)) : "");
+  };
+  for (const linear::LoopMode& mode : linear::modes_of(loop)) {
+    if (mode.time_constant == 0.0) {
+      continue;
+    }
+    const bool is_pair = mode.multiplier.imag() != 0.0;
+    rows.push_back({is_pair ? fmt::format("pair of modes at {}, damping {:.3g}: time constant",
+                                          in_units(mode.frequency), mode.damping)
+                            : fmt::format("mode {:.6g}: time constant", mode.multiplier.real()),
+                    duration(mode.time_constant, assume.sample_rate)});
+  }
+  const std::vector<double> share = linear::followed_share(loop, proof.gains->samples());
+  const double most = *std::max_element(share.begin(), share.end());
+  rows.push_back(
+      {"step of the frequency: overshoot", fmt::format("{:.3g} %", std::max(0.0, 100.0 * (most - 1.0)))});
+  rows.push_back({"step of the frequency: within 2 % from sample",
+                  duration(static_cast<double>(settled_from(share)), assume.sample_rate)});
+  rows.push_back({"white noise of deviation 1 in each channel: deviation of the frequency",
+                  in_units(linear::noise_deviation(loop, proof.gains->samples()))});
+  if (const auto margin = model::detector_margin(network, assume.amplitude[0].nearest)) {
+    const std::string low = margin->low > 0.0 ? fmt::format("from {:.3g}", margin->low) : std::string();
+    const std::string high =
+        std::isfinite(margin->high) ? fmt::format("up to {:.3g}", margin->high) : std::string();
+    rows.push_back({"the detector's gain times this factor is stable",
+                    low + (low.empty() || high.empty() ? "" : " ") + high +
+                        (low.empty() && high.empty() ? "any from 0.001 to 1000" : "")});
+  }
+  return "*Computed, not proved:* the linear loop.\n\n" + markdown::table({"Property", "Value"}, rows) + "\n";
+}
+
 /// Of an unstable loop: what would make it stable.
 std::string stability_text(const Certificate& certificate) {
   std::string text =
@@ -113,7 +179,7 @@ std::string attack_text(const ModelSets& sets, const Model& model, const ModelAs
   const rigor::Interval band = band_of(assume);
   const double noise = assume.noise.value.lower();
   const double slew = slew_of(assume).lower();
-  if (!(noise > 0.0 || slew > 0.0) || !proof.assumed) {
+  if (!(noise > 0.0 || slew > 0.0) || !proof.gains || !proof.assumed) {
     return "";
   }
   constexpr std::size_t kMostSamples = 200'000;
@@ -130,7 +196,7 @@ std::string attack_text(const ModelSets& sets, const Model& model, const ModelAs
 }  // namespace
 
 std::string model_gains_section(const Certificate& certificate, const Model& model,
-                                const MarkdownOptions& /*options*/) {
+                                const MarkdownOptions& options) {
   const ModelAssumptions& assume = model_tables(certificate.design).assume;
   const ModelSets& sets = model_sets(certificate);
   const model::GainProof& proof = *sets.gains;
@@ -151,7 +217,11 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
         "For the assumed noise and slew no bound was proved: the errors may leave the range in which the "
         "loop's functions are nearly linear.\n\n";
   }
-  return text + limits_table(sets, units) + steady_state_table(proof, model);
+  text += limits_table(sets, units);
+  if (proof.gains) {
+    text += linear_table(proof, assume, units) + model_picture(options, "response.svg");
+  }
+  return text + steady_state_table(proof, model);
 }
 
 std::string gains_coverage_section(const ModelTables& tables) {

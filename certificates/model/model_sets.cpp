@@ -208,8 +208,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   question.deadline = deadline;
   ModelSets sets;
   sets.bounds_covariance = question.tone.filter != nullptr;
-  if (std::optional<model::ProvedSets> proved = model::prove_by_gains(question)) {
-    static_cast<model::ProvedSets&>(sets) = *std::move(proved);
+  std::optional<model::ProvedSets> by_gains = model::prove_by_gains(question);
+  if (by_gains && (model.samples.size() > 1 || model::is_near_linear(*by_gains))) {
+    static_cast<model::ProvedSets&>(sets) = *std::move(by_gains);
     return sets;
   }
   sets.objection = objection_to(model, question.band, sets.bounds_covariance);
@@ -230,6 +231,11 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     }
   }
   static_cast<model::ProvedSets&>(sets) = prove_sets(question, shared.next(tasks));
+  if (by_gains && by_gains->deciding().is_proved() && !sets.deciding().is_proved()) {
+    static_cast<model::ProvedSets&>(sets) = *std::move(by_gains);
+    sets.bounds_covariance = false;
+    return sets;
+  }
   if (follows_start) {
     const model::ProvedSet& deciding = sets.deciding();
     sets.capture =

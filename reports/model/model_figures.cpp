@@ -16,6 +16,7 @@
 #include "certificates/sets/frequency_units.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/model/least_of_parts.hpp"
+#include "reports/model/response_figure.hpp"
 #include "reports/model/tube_figure.hpp"
 
 namespace veritrack::reports {
@@ -287,6 +288,10 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
   }
   std::vector<Figure> figures;
   if (sets.gains) {
+    if (sets.gains->gains) {
+      const auto& rate = tables.assume.sample_rate;
+      figures.push_back(response_figure(*sets.gains, units, rate ? rate->nearest : 1.0));
+    }
     return figures;
   }
   if (!proved.empty()) {

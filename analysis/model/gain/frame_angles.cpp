@@ -22,7 +22,7 @@ bool FrameRules::find_pattern(Frame& frame, const Waves& y, const Waves& x, Wave
   const bool turns_on = of_x.imaginary == -of_y.real && of_y.imaginary == of_x.real;
   const bool turns_back = of_x.imaginary == of_y.real && of_y.imaginary == -of_x.real;
   const bool is_quarter = (of_x.real == 0.0) == (of_y.real != 0.0);
-  if (monomial.is_real() || !is_quarter || (!turns_on && !turns_back)) {
+  if (monomial.is_real() || monomial.noise > 0 || !is_quarter || (!turns_on && !turns_back)) {
     return false;
   }
   Interval factor(1.0);
@@ -41,7 +41,7 @@ bool FrameRules::find_pattern(Frame& frame, const Waves& y, const Waves& x, Wave
 FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int turns_per_period) {
   const double sign = pattern.sign;
   FrameLine angle = scaled(phase_of(frame, pattern.monomial), Interval(sign), sign);
-  if (pattern.monomial.order != 0) {
+  if (pattern.monomial.order != 0 && frame.channels_ == 2) {
     if (frame.angle_input_ < 0) {
       FrameInput input;
       input.at_noise = [amplitude = frame.amplitude_](double noise) {
@@ -90,14 +90,15 @@ FrameValue sine(const FrameValue& a, FrameOperation operation, WaveWeights weigh
   }
   FrameRules::keep_angle(frame, a.name(), frame.line_of(a));
   Waves waves;
-  FrameRules::add_wave(waves, {0, 0, {{a.name(), 1}}, {}}, weights);
+  FrameRules::add_wave(waves, {0, 0, 0, {{a.name(), 1}}, {}}, weights);
   return {&frame, name, Kind::waves, std::move(waves)};
 }
 
 /// 1/x for a constant, or for real waves of one monomial, by which one may divide exactly.
 bool reciprocal_of(Frame& frame, const FrameValue& x, Waves& result) {
   Waves waves;
-  if (!FrameRules::as_waves(x, waves) || waves.size() != 1 || !waves.begin()->first.is_real()) {
+  if (!FrameRules::as_waves(x, waves) || waves.size() != 1 || !waves.begin()->first.is_real() ||
+      waves.begin()->first.noise > 0) {
     return false;
   }
   const auto& [monomial, weights] = *waves.begin();
@@ -120,15 +121,16 @@ bool reciprocal_of(Frame& frame, const FrameValue& x, Waves& result) {
 
 /// The root of real waves of one monomial that is a square.
 bool root_of(const Waves& waves, Waves& result) {
-  if (waves.size() != 1 || !waves.begin()->first.is_real() || waves.begin()->first.magnitude % 2 != 0 ||
-      !waves.begin()->first.factors.empty() || !(waves.begin()->second.real > 0.0)) {
+  if (waves.size() != 1 || !waves.begin()->first.is_real() || waves.begin()->first.noise > 0 ||
+      waves.begin()->first.magnitude % 2 != 0 || !waves.begin()->first.factors.empty() ||
+      !(waves.begin()->second.real > 0.0)) {
     return false;
   }
   const double root = std::round(std::sqrt(waves.begin()->second.real) * 0x1p10) * 0x1p-10;
   if (root * root != waves.begin()->second.real) {
     return false;
   }
-  FrameRules::add_wave(result, {waves.begin()->first.magnitude / 2, 0, {}, {}}, {root, 0.0});
+  FrameRules::add_wave(result, {waves.begin()->first.magnitude / 2, 0, 0, {}, {}}, {root, 0.0});
   return true;
 }
 
@@ -214,8 +216,8 @@ FrameValue asin(const FrameValue& a) {
   // Of the sine of an angle: the angle, below a quarter turn.
   if (a.kind() == Kind::waves && a.waves().size() == 1) {
     const auto& [monomial, weights] = *a.waves().begin();
-    const bool is_sine = monomial.magnitude == 0 && monomial.factors.empty() && weights.real == 0.0 &&
-                         std::fabs(weights.imaginary) == 1.0;
+    const bool is_sine = monomial.magnitude == 0 && monomial.noise == 0 && monomial.factors.empty() &&
+                         weights.real == 0.0 && std::fabs(weights.imaginary) == 1.0;
     if (is_sine) {
       const WavePattern pattern{monomial, weights.imaginary > 0.0 ? 1 : -1, 0};
       return {a.frame(), FrameRules::named(*a.frame(), FrameOperation::arcsine, a.name()),

@@ -179,7 +179,11 @@ int FrameRules::disc(Frame& frame, const Monomial& monomial) {
   }
   FrameInput input;
   input.components = monomial.is_real() ? 1 : 2;
-  input.at_noise = [amplitude = frame.amplitude_, monomial](double noise) {
+  input.at_noise = [amplitude = frame.amplitude_, monomial, is_one = frame.channels_ == 1](double noise) {
+    if (is_one) {
+      return (whole_power(amplitude, monomial.magnitude) * whole_power(Interval(noise), monomial.noise))
+          .upper();
+    }
     return disc_radius(amplitude, monomial.magnitude, monomial.order, noise);
   };
   return frame.discs_[monomial] = add_input(frame, std::move(input));
@@ -193,11 +197,16 @@ FrameLine FrameRules::part_of_wave(Frame& frame, const Monomial& monomial, int p
     return found->second;
   }
   const FrameLine phase = phase_of(frame, monomial);
-  if (phase.turns != 0) {
-    throw NoFrame("a value that depends on the phase of the signal");
-  }
   FrameLine line;
-  if (monomial.magnitude != 0 || monomial.order != 0) {
+  if (monomial.noise > 0) {
+    add_component(line, disc(frame, monomial) + part, Interval(1.0));
+    return frame.parts_[key] = std::move(line);
+  }
+  if (phase.turns != 0) {
+    add_component(line, ripple(frame, monomial, phase) + part, Interval(1.0));
+    return frame.parts_[key] = std::move(line);
+  }
+  if (frame.channels_ == 2 && (monomial.magnitude != 0 || monomial.order != 0)) {
     add_component(line, disc(frame, monomial) + part, Interval(1.0));
   }
   const Interval size = whole_power(frame.amplitude_, monomial.magnitude);
@@ -217,6 +226,24 @@ FrameLine FrameRules::part_of_wave(Frame& frame, const Monomial& monomial, int p
     add_component(line, input, Interval(1.0));
   }
   return frame.parts_[key] = std::move(line);
+}
+
+/// The first component of what turns with the signal.
+int FrameRules::ripple(Frame& frame, const Monomial& monomial, const FrameLine& phase) {
+  if (frame.channels_ != 1 || !phase.inputs.empty()) {
+    throw NoFrame("a value that depends on the phase of the signal");
+  }
+  const auto found = frame.discs_.find(monomial);
+  if (found != frame.discs_.end()) {
+    return found->second;
+  }
+  const double size = rigor::magnitude(whole_power(frame.amplitude_, monomial.magnitude));
+  FrameInput input;
+  input.components = 2;
+  input.at_noise = [size](double /*noise*/) { return size; };
+  const int first = add_input(frame, std::move(input));
+  frame.ripples_.push_back({first, phase.turns, size, phase.states});
+  return frame.discs_[monomial] = first;
 }
 
 int FrameRules::form_of_phase(Frame& frame, const Monomial& monomial, const FrameLine& phase) {

@@ -66,6 +66,7 @@ struct FrameRules {
   static FrameLine line_of_waves(Frame& frame, const Waves& waves);
   static FrameLine phase_of(Frame& frame, const Monomial& monomial);
   static int disc(Frame& frame, const Monomial& monomial);
+  static int ripple(Frame& frame, const Monomial& monomial, const FrameLine& phase);
   static FrameLine product_line(Frame& frame, const FrameLine& a, const FrameLine& b, bool is_square);
   static FrameLine function_line(Frame& frame, FrameOperation operation, const FrameLine& operand);
 

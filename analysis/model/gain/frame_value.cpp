@@ -123,7 +123,7 @@ bool FrameRules::as_waves(const FrameValue& value, Waves& waves) {
     add_wave(waves, {}, {*number, 0.0});
   } else {
     value.frame()->factors_.try_emplace(value.name(), value.line().constant);
-    add_wave(waves, {0, 0, {}, {value.name()}}, {1.0, 0.0});
+    add_wave(waves, {0, 0, 0, {}, {value.name()}}, {1.0, 0.0});
   }
   return true;
 }
@@ -137,6 +137,7 @@ Waves FrameRules::product_of(const Waves& a, const Waves& b) {
         Monomial both = m;
         both.magnitude += n.magnitude;
         both.order += sign * n.order;
+        both.noise += n.noise;
         for (const auto& [name, multiple] : n.angles) {
           int& sum = both.angles[name];
           sum += sign * multiple;
@@ -270,7 +271,10 @@ FrameValue Frame::state(int state, bool is_angle, int turns, double constant, do
 
 FrameValue Frame::sample(int channel) {
   Waves waves;
-  FrameRules::add_wave(waves, {1, 1, {}, {}}, {channel == 0 ? 1.0 : 0.0, channel == 0 ? 0.0 : 1.0});
+  FrameRules::add_wave(waves, {1, 1, 0, {}, {}}, {channel == 0 ? 1.0 : 0.0, channel == 0 ? 0.0 : 1.0});
+  if (channels_ == 1) {
+    FrameRules::add_wave(waves, {0, 0, 1, {}, {}}, {1.0, 0.0});
+  }
   return {this, FrameRules::named(*this, FrameOperation::sample, channel), FrameValue::Kind::waves,
           std::move(waves)};
 }

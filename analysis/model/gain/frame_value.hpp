@@ -35,8 +35,11 @@ struct FrameLine {
 };
 
 /// |y|^magnitude e^(i (order arg y + sum of k L)), times the constants in `factors`; L and constants by name.
+/// With one channel |y| stands for the amplitude, arg y for the phase of the sample, and the noise is a
+/// factor.
 struct Monomial {
   int magnitude = 0, order = 0;
+  int noise = 0;              ///< the power of the noise; one channel
   std::map<int, int> angles;  ///< k by the name of L, not 0
   std::vector<int> factors;   ///< names of constants, in order
 
@@ -114,12 +117,20 @@ struct FrameLimit {
   double room = 0.0;
 };
 
+/// An input of two components that turns with the signal, A^s e^(i (turns phase + lambda)), one channel.
+struct FrameRipple {
+  int first = 0;  ///< its first component
+  int turns = 0;
+  double size = 0.0;                    ///< A^s, at most
+  std::vector<rigor::Interval> states;  ///< lambda, a form in the deviations of the states; empty: 0
+};
+
 /// The network that arises while formulas are run over values. Needs the upward rounding mode.
 class Frame {
  public:
-  /// Amplitudes of the samples, signal units; `band`, rad/sample.
-  Frame(const rigor::Interval& amplitude, const rigor::Interval& band, int states)
-      : amplitude_(amplitude), band_(band), states_(states) {}
+  /// Amplitudes of the samples, signal units; `band`, rad/sample; one or two channels.
+  Frame(const rigor::Interval& amplitude, const rigor::Interval& band, int states, int channels = 2)
+      : amplitude_(amplitude), band_(band), states_(states), channels_(channels) {}
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 
@@ -127,7 +138,7 @@ class Frame {
   [[nodiscard]] FrameValue constant(int number, const rigor::Interval& value);
   /// State number `state`: turns phi + constant + per_frequency omega + its deviation.
   [[nodiscard]] FrameValue state(int state, bool is_angle, int turns, double constant, double per_frequency);
-  /// The real (0) or imaginary (1) part of a sample at the phase phi + omega.
+  /// The real (0) or imaginary (1) part of a sample at the phase phi + omega; of one channel the sample.
   [[nodiscard]] FrameValue sample(int channel);
   /// A linear value equal to this one. Throws NoFrame where it depends on the phase.
   [[nodiscard]] FrameLine line_of(const FrameValue& value);
@@ -135,6 +146,7 @@ class Frame {
   [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
   [[nodiscard]] const std::vector<FrameLine>& forms() const { return forms_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
+  [[nodiscard]] const std::vector<FrameRipple>& ripples() const { return ripples_; }
   [[nodiscard]] const rigor::Interval& band() const { return band_; }
   [[nodiscard]] int states() const { return states_; }
 
@@ -143,6 +155,7 @@ class Frame {
 
   rigor::Interval amplitude_, band_;
   int states_;
+  int channels_;
   int components_ = 0;
   int names_ = 0;
   std::map<std::tuple<int, int, int>, int> name_of_;     // of an operation on names
@@ -157,6 +170,7 @@ class Frame {
   std::vector<FrameInput> inputs_;
   std::vector<FrameLine> forms_;
   std::vector<FrameLimit> limits_;
+  std::vector<FrameRipple> ripples_;
 };
 
 }  // namespace veritrack::model

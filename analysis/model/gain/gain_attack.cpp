@@ -32,18 +32,26 @@ struct Adjoint {
 Adjoint adjoint_of(const TrackedTone& tone, const std::vector<SteadyValue>& steady, double omega,
                    std::size_t samples) {
   const auto n = static_cast<Eigen::Index>(steady.size());
-  const Eigen::VectorXd state = state_at(steady, 0.0, omega);
-  const Eigen::MatrixXd slope = tone.step.jacobian(state, samples_of(tone.signal, tone.amplitude, omega));
+  const bool is_one = tone.step.recursion().samples == 1;
+  const auto slope_at = [&](double phase) {
+    return tone.step.jacobian(state_at(steady, phase, omega),
+                              samples_of(tone.signal, tone.amplitude, phase + omega));
+  };
+  // With two channels it turns with the signal.
+  const Eigen::MatrixXd first = slope_at(0.0);
   Eigen::VectorXd moved(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     moved(i) = -steady[static_cast<std::size_t>(i)].per_frequency;
   }
-  Eigen::RowVectorXd row = tone.step.frequency_gradient(state);
+  Eigen::RowVectorXd row = tone.step.frequency_gradient(state_at(steady, 0.0, omega));
   Adjoint adjoint{std::vector<std::complex<double>>(samples), std::vector<double>(samples)};
   for (std::size_t k = samples; k-- > 0;) {
-    const Eigen::RowVectorXd effect = row * slope.rightCols(2);
+    const Eigen::MatrixXd slope =
+        is_one ? slope_at(std::remainder(static_cast<double>(k) * omega, kTurn)) : first;
+    const Eigen::RowVectorXd effect = row * slope.rightCols(slope.cols() - n);
     const std::complex<double> direction =
-        std::complex<double>(effect(0), effect(1)) * std::polar(1.0, -omega);
+        is_one ? std::complex<double>(effect(0), 0.0)
+               : std::complex<double>(effect(0), effect(1)) * std::polar(1.0, -omega);
     adjoint.noise[k] = std::abs(direction) > 0.0 ? direction / std::abs(direction) : 0.0;
     adjoint.slew[k] = row.dot(moved) > 0.0 ? 1.0 : -1.0;
     row = (row * slope.leftCols(n)).eval();
@@ -74,10 +82,15 @@ double attack_loop(const TrackedTone& tone, const std::vector<SteadyValue>& stea
           state(static_cast<Eigen::Index>(i)) -= steady[i].turns * turn;
         }
       }
-      const std::complex<double> across = adjoint.noise[k];
-      const std::complex<double> in_frame = noise * (across * std::cos(angle) - std::sin(angle));
-      const std::complex<double> sample = (tone.amplitude + in_frame) * std::polar(1.0, phase);
-      state = tone.step.next(state, Eigen::Vector2d(sample.real(), sample.imag()));
+      Eigen::VectorXd sample = samples_of(tone.signal, tone.amplitude, phase);
+      if (sample.size() == 1) {
+        sample(0) += noise * adjoint.noise[k].real();
+      } else {
+        const std::complex<double> in_frame = noise * (adjoint.noise[k] * std::cos(angle) - std::sin(angle));
+        const std::complex<double> added = in_frame * std::polar(1.0, phase);
+        sample += Eigen::Vector2d(added.real(), added.imag());
+      }
+      state = tone.step.next(state, sample);
       frequency += slew * adjoint.slew[k];
       largest = std::max(largest, std::fabs(tone.step.frequency(state) - frequency));
     }

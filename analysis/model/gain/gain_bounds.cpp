@@ -160,11 +160,16 @@ bool GainBounds::keeps_limits(const Bounds& bounds) const {
 }
 
 Numbers GainBounds::start_of_block(const LoopDisturbance& disturbance, std::size_t block) const {
-  Numbers start(network_.forms.size(), 0.0);
+  Numbers off = disturbance.start;
+  off.resize(network_.a.size(), 0.0);
+  for (std::size_t j = 0; j < network_.ripple_at_start.size(); ++j) {
+    off[j] = rigor::add_up(off[j], network_.ripple_at_start[j]);
+  }
+  Numbers start = network_.ripple;
   for (std::size_t f = 0; f < start.size(); ++f) {
-    for (std::size_t j = 0; j < disturbance.start.size(); ++j) {
+    for (std::size_t j = 0; j < off.size(); ++j) {
       const linear::StartGain& gain = gains_.starts[f][j];
-      start[f] = plus(start[f], block < blocks_ ? gain.blocks[block] : gain.later, disturbance.start[j]);
+      start[f] = plus(start[f], block < blocks_ ? gain.blocks[block] : gain.later, off[j]);
     }
   }
   return start;
@@ -204,7 +209,7 @@ Numbers GainBounds::in_the_long_run(const LoopDisturbance& disturbance, Bounds b
   for (int round = 0; round < kRounds; ++round) {
     const Numbers size = sizes(disturbance, bounds);
     for (std::size_t f = 0; f < bounds.size(); ++f) {
-      double sum = 0.0;
+      double sum = network_.ripple[f];
       for (std::size_t l = 0; l < size.size(); ++l) {
         sum = plus(sum, total_[f][l], size[l]);
       }
@@ -216,7 +221,7 @@ Numbers GainBounds::in_the_long_run(const LoopDisturbance& disturbance, Bounds b
 
 double GainBounds::linear_error(double noise, double slew) const {
   const Numbers size = sizes({noise, slew, {}}, Numbers(network_.forms.size(), 0.0));
-  double sum = rigor::magnitude(network_.bias);
+  double sum = rigor::add_up(rigor::magnitude(network_.bias), network_.ripple.back());
   for (std::size_t l = 0; l < size.size(); ++l) {
     if (network_.inputs[l].cause != Cause::remainder) {
       sum = plus(sum, total_.back()[l], size[l]);
@@ -226,7 +231,9 @@ double GainBounds::linear_error(double noise, double slew) const {
 }
 
 std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance) const {
-  const std::optional<std::vector<Numbers>> sequence = this->sequence(disturbance);
+  const bool is_covered = !network_.has_ripples || !(disturbance.slew > 0.0);
+  const std::optional<std::vector<Numbers>> sequence =
+      is_covered ? this->sequence(disturbance) : std::nullopt;
   if (!sequence) {
     return std::nullopt;
   }
@@ -243,6 +250,7 @@ std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance)
   result.long_run = rigor::add_up(settled.back(), bias);
   const Numbers size = sizes(disturbance, settled);
   result.budget.steady_state = bias;
+  result.budget.ripple = network_.ripple.back();
   for (std::size_t l = 0; l < size.size(); ++l) {
     const Cause cause = network_.inputs[l].cause;
     double& part = cause == Cause::noise       ? result.budget.noise

@@ -20,6 +20,7 @@ struct LoopDisturbance {
 /// The contributions to the frequency error in the long run, rad/sample, each at most.
 struct ErrorBudget {
   double noise = 0.0, slew = 0.0, remainders = 0.0, steady_state = 0.0;
+  double ripple = 0.0;  ///< one channel: what turns with the signal
 };
 
 /// Bounds of the frequency error, rad/sample.

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "analysis/linear/resolvent.hpp"
 #include "analysis/model/gain/frame_value.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/small_matrix.hpp"
@@ -39,15 +40,53 @@ Interval weight_of(const FrameLine& line, int component) {
   return found == line.inputs.end() ? Interval(0.0) : found->second;
 }
 
+/// Of a proposed steady state at one frequency: how far a step leads away from it, and the matrix.
+struct Residual {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd slope;
+};
+
 class Assembly {
  public:
   Assembly(const TrackerModel& tracker, const std::vector<SteadyValue>& steady, const Interval& band)
       : tracker_(&tracker),
         steady_(&steady),
         states_(steady.size()),
-        frame_(tracker.amplitude, band, static_cast<int>(steady.size())) {}
+        frame_(tracker.amplitude, band, static_cast<int>(steady.size()), tracker.recursion->samples) {}
+
+  /// Not evidence.
+  [[nodiscard]] Residual residual() {
+    run_formulas();
+    add_matrix();
+    const auto n = static_cast<Eigen::Index>(states_);
+    Residual result{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
+    for (std::size_t i = 0; i < states_; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      result.value(row) = rigor::midpoint(residual_of(i));
+      for (std::size_t j = 0; j < states_; ++j) {
+        result.slope(row, static_cast<Eigen::Index>(j)) = rigor::midpoint(network_.a[i][j]);
+      }
+    }
+    return result;
+  }
 
   [[nodiscard]] LoopNetwork make() {
+    run_formulas();
+    add_matrix();
+    add_frame_inputs();
+    add_frequency_inputs();
+    add_forms();
+    add_ripples();
+    add_form(frequency_);
+    network_.ripple.resize(network_.forms.size(), 0.0);
+    if (network_.has_ripples) {
+      average_ripples();
+    }
+    return std::move(network_);
+  }
+
+ private:
+  void run_formulas() {
     std::vector<FrameValue> values;
     for (std::size_t i = 0; i < states_; ++i) {
       const SteadyValue& each = (*steady_)[i];
@@ -60,19 +99,14 @@ class Assembly {
     if (frequency_.turns != 0 || frequency_.is_modular) {
       throw NoFrame("a frequency that is an angle");
     }
-    values.push_back(frame_.sample(0));
-    values.push_back(frame_.sample(1));
+    for (int channel = 0; channel < tracker_->recursion->samples; ++channel) {
+      values.push_back(frame_.sample(channel));
+    }
     for (const FrameValue& each : run(tracker_->recursion->step, frame_, tracker_->constants, values)) {
       next_.push_back(frame_.line_of(each));
     }
-    add_matrix();
-    add_frame_inputs();
-    add_frequency_inputs();
-    add_forms();
-    return std::move(network_);
   }
 
- private:
   void add_matrix() {
     for (std::size_t i = 0; i < states_; ++i) {
       const bool is_angle = tracker_->recursion->is_angle[i];
@@ -107,6 +141,20 @@ class Assembly {
     }
   }
 
+  /// What a step leaves of the steady state of state i.
+  [[nodiscard]] Interval residual_of(std::size_t i) const {
+    const SteadyValue& each = (*steady_)[i];
+    Interval residual =
+        next_[i].constant - Interval(each.constant) +
+        (next_[i].per_frequency - Interval(each.per_frequency) - Interval(static_cast<double>(each.turns))) *
+            frame_.band();
+    if (tracker_->recursion->is_angle[i]) {
+      const Interval turn = Interval(2.0) * rigor::pi();
+      residual -= Interval(std::round(rigor::midpoint(residual) / rigor::midpoint(turn))) * turn;
+    }
+    return residual;
+  }
+
   /// A frequency that moves, and what is left of the steady state after a step.
   void add_frequency_inputs() {
     linear::GainInput moves{{linear::Row()}};
@@ -117,15 +165,7 @@ class Assembly {
     network_.inputs.push_back({NetworkInput::Cause::slew, "",
                                [](double /*noise*/, double slew, const auto& /*bounds*/) { return slew; }});
     for (std::size_t i = 0; i < states_; ++i) {
-      const SteadyValue& each = (*steady_)[i];
-      Interval residual = next_[i].constant - Interval(each.constant) +
-                          (next_[i].per_frequency - Interval(each.per_frequency) -
-                           Interval(static_cast<double>(each.turns))) *
-                              frame_.band();
-      if (tracker_->recursion->is_angle[i]) {
-        const Interval turn = Interval(2.0) * rigor::pi();
-        residual -= Interval(std::round(rigor::midpoint(residual) / rigor::midpoint(turn))) * turn;
-      }
+      const Interval residual = residual_of(i);
       linear::GainInput unit{{linear::Row(states_, Interval(0.0))}};
       unit.columns.front()[i] = Interval(1.0);
       network_.columns.push_back(std::move(unit));
@@ -140,17 +180,107 @@ class Assembly {
     for (const FrameLine& form : frame_.forms()) {
       add_form(form);
     }
-    add_form(frequency_);
     network_.bias = frequency_.constant + (frequency_.per_frequency - Interval(1.0)) * frame_.band();
     for (const FrameLimit& limit : frame_.limits()) {
       network_.limits.emplace_back(static_cast<std::size_t>(limit.form), limit.room);
     }
-    const linear::Row& row = network_.forms.back();
+    const linear::Row row = states_of(frequency_, states_);
     const auto is_not_zero = [](const Interval& x) { return rigor::magnitude(x) > 0.0; };
     if (frequency_.inputs.empty() && std::count_if(row.begin(), row.end(), is_not_zero) == 1) {
       const auto place = std::find_if(row.begin(), row.end(), is_not_zero);
       network_.frequency_state = {static_cast<std::size_t>(place - row.begin()),
                                   std::min(std::fabs(place->lower()), std::fabs(place->upper()))};
+    }
+  }
+
+  /// The changes of the angles of what turns, from one sample to the next: a form for each.
+  void add_ripples() {
+    for (const FrameRipple& ripple : frame_.ripples()) {
+      const linear::Row phase = ripple.states.empty() ? linear::Row(states_, Interval(0.0)) : ripple.states;
+      FrameLine change;
+      for (std::size_t j = 0; j < states_; ++j) {
+        Interval sum = -phase[j];
+        for (std::size_t i = 0; i < states_; ++i) {
+          sum += phase[i] * network_.a[i][j];
+        }
+        change.states.push_back(sum);
+      }
+      for (const FrameInput& input : frame_.inputs()) {
+        for (int component = input.first; component < input.first + input.components; ++component) {
+          Interval sum(0.0);
+          for (std::size_t i = 0; i < states_; ++i) {
+            sum += phase[i] * weight_of(next_[i], component);
+          }
+          change.inputs[component] = sum;
+        }
+      }
+      changes_.push_back(network_.forms.size());
+      add_form(change);
+      // Residuals of the steady state change it, too.
+      for (std::size_t i = 0; i < states_; ++i) {
+        network_.direct.back().push_back({frame_.inputs().size() + 1 + i, rigor::magnitude(phase[i])});
+      }
+    }
+    network_.has_ripples = !frame_.ripples().empty();
+    if (network_.has_ripples && tracker_->amplitude_varies) {
+      throw NoFrame("an amplitude that varies, with one channel");
+    }
+  }
+
+  /// What turns with the signal is known: it is taken out of the sums, and its drift is put in
+  /// (docs/gain-proof.md, section 9).
+  void average_ripples() {
+    constexpr int kParts = 1024;
+    network_.ripple_at_start.assign(states_, 0.0);
+    std::vector<std::vector<double>> drifts(states_);  // of each state, by ripple
+    for (std::size_t r = 0; r < frame_.ripples().size(); ++r) {
+      const FrameRipple& ripple = frame_.ripples()[r];
+      linear::Row real;
+      linear::Row imaginary;
+      for (const FrameLine& line : next_) {
+        real.push_back(weight_of(line, ripple.first));
+        imaginary.push_back(-weight_of(line, ripple.first + 1));
+      }
+      const auto response = linear::turning_response(network_.a, real, imaginary, ripple.turns,
+                                                     network_.forms, frame_.band(), kParts);
+      if (!response) {
+        throw NoFrame("a mode of the loop turns with the signal");
+      }
+      for (std::size_t f = 0; f < network_.forms.size(); ++f) {
+        network_.ripple[f] =
+            rigor::add_up(network_.ripple[f], rigor::mul_up(ripple.size, response->forms[f]));
+      }
+      for (std::size_t j = 0; j < states_; ++j) {
+        drifts[j].push_back(rigor::mul_up(ripple.size, response->states[j]));
+        network_.ripple_at_start[j] = rigor::add_up(network_.ripple_at_start[j], drifts[j].back());
+      }
+      remove_column(ripple.first);
+    }
+    for (std::size_t j = 0; j < states_; ++j) {
+      linear::GainInput unit{{linear::Row(states_, Interval(0.0))}};
+      unit.columns.front()[j] = Interval(1.0);
+      network_.columns.push_back(std::move(unit));
+      network_.inputs.push_back({NetworkInput::Cause::remainder, "what turns with the signal",
+                                 [sizes = drifts[j], changes = changes_](double /*noise*/, double /*slew*/,
+                                                                         const std::vector<double>& bounds) {
+                                   double sum = 0.0;
+                                   for (std::size_t r = 0; r < sizes.size(); ++r) {
+                                     sum = rigor::add_up(
+                                         sum, rigor::mul_up(sizes[r], std::min(2.0, bounds[changes[r]])));
+                                   }
+                                   return sum;
+                                 }});
+    }
+  }
+
+  /// The input stays, for forms that it is part of within the sample.
+  void remove_column(int first) {
+    for (std::size_t l = 0; l < frame_.inputs().size(); ++l) {
+      if (frame_.inputs()[l].first == first) {
+        for (linear::Row& column : network_.columns[l].columns) {
+          column.assign(states_, Interval(0.0));
+        }
+      }
     }
   }
 
@@ -178,35 +308,36 @@ class Assembly {
   Frame frame_;
   FrameLine frequency_;
   std::vector<FrameLine> next_;
+  std::vector<std::size_t> changes_;  // forms
   LoopNetwork network_;
 };
 
-/// The state at the phase 0 that a step to the phase omega turns by omega, if Newton's method finds one.
-std::optional<Eigen::VectorXd> steady_at(const TrackedTone& tone, double omega, const std::vector<int>& turns,
-                                         Eigen::VectorXd state) {
+/// The steady state at one frequency, if Newton's method finds one: by the residual of the network.
+std::optional<Eigen::VectorXd> steady_at(const TrackerModel& tracker, double omega,
+                                         std::vector<double> state) {
   constexpr int kSteps = 50;
-  const auto n = static_cast<Eigen::Index>(turns.size());
-  const Eigen::VectorXd sample = samples_of(tone.signal, tone.amplitude, omega);
+  const auto n = static_cast<Eigen::Index>(state.size());
   double last = INFINITY;
   for (int step = 0; step < kSteps; ++step) {
-    Eigen::VectorXd residual = tone.step.next(state, sample) - state;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      residual(i) -= turns[static_cast<std::size_t>(i)] * omega;
-      if (tone.step.recursion().is_angle[static_cast<std::size_t>(i)]) {
-        residual(i) = std::remainder(residual(i), 2.0 * rigor::midpoint(rigor::pi()));
-      }
+    std::vector<SteadyValue> steady;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      steady.push_back({tracker.recursion->is_angle[i] ? 1 : 0, state[i], 0.0});
     }
-    const Eigen::MatrixXd slope = tone.step.jacobian(state, sample).leftCols(n);
+    const Residual residual = Assembly(tracker, steady, Interval(omega)).residual();
     const Eigen::VectorXd change =
-        rigor::product(rigor::approximate_inverse(slope - rigor::identity(n)), residual);
+        rigor::product(rigor::approximate_inverse(residual.slope - rigor::identity(n)), residual.value);
     if (!change.allFinite()) {
       return std::nullopt;
     }
-    state -= change;
-    const double size = change.cwiseAbs().cwiseQuotient(state.cwiseAbs().cwiseMax(1e-6)).maxCoeff();
+    double size = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double& each = state[static_cast<std::size_t>(i)];
+      each -= change(i);
+      size = std::max(size, std::fabs(change(i)) / std::max(std::fabs(each), 1e-6));
+    }
     // As near as rounding lets it come.
     if (size < 1e-14 || (size < 1e-6 && size >= 0.5 * last)) {
-      return state;
+      return Eigen::Map<const Eigen::VectorXd>(state.data(), n);
     }
     last = size;
   }
@@ -217,33 +348,23 @@ std::optional<Eigen::VectorXd> steady_at(const TrackedTone& tone, double omega, 
 
 LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
                          const Interval& band) {
-  if (tracker.recursion->samples != 2 || steady.size() != tracker.recursion->is_angle.size()) {
-    throw NoFrame("one channel");
+  if (steady.size() != tracker.recursion->is_angle.size()) {
+    throw NoFrame("another number of states");
   }
   return Assembly(tracker, steady, band).make();
 }
 
-std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackedTone& tone, double low,
+std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackerModel& tracker,
+                                                              const StartState& start, double low,
                                                               double high) {
-  const rigor::NearestRounding nearest;
-  const std::vector<bool>& is_angle = tone.step.recursion().is_angle;
-  std::vector<int> turns;
-  for (const bool each : is_angle) {
-    turns.push_back(each ? 1 : 0);
-  }
-  const auto find = [&](double omega) {
-    const std::vector<double> start = tone.start(omega);
-    return steady_at(
-        tone, omega, turns,
-        Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size())));
-  };
-  const auto first = find(low);
-  const auto second = find(high);
+  const std::vector<bool>& is_angle = tracker.recursion->is_angle;
+  const auto first = steady_at(tracker, low, start(low));
+  const auto second = steady_at(tracker, high, start(high));
   if (!first || !second) {
     return std::nullopt;
   }
   std::vector<SteadyValue> steady;
-  for (std::size_t i = 0; i < turns.size(); ++i) {
+  for (std::size_t i = 0; i < is_angle.size(); ++i) {
     const auto place = static_cast<Eigen::Index>(i);
     double change = (*second)(place) - (*first)(place);
     if (is_angle[i]) {
@@ -252,15 +373,13 @@ std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackedTone&
     const double size = std::max(std::fabs((*first)(place)), std::fabs((*second)(place)));
     double slope = high > low && std::fabs(change) > 1e-11 * size ? change / (high - low) : 0.0;
     // A whole number is most often meant where it is nearly one.
-    slope = std::fabs(slope - std::nearbyint(slope)) < 1e-9 * std::max(1.0, std::fabs(slope))
-                ? std::nearbyint(slope)
-                : slope;
+    const double whole = std::round(slope);
+    slope = std::fabs(slope - whole) < 1e-9 * std::max(1.0, std::fabs(slope)) ? whole : slope;
     double constant = (*first)(place)-slope * low;
-    constant =
-        std::fabs(constant) < 1e-11 * std::max(size, std::fabs(slope * low)) || std::fabs(constant) < 1e-13
-            ? 0.0
-            : constant;
-    steady.push_back({turns[i], constant, slope});
+    const bool is_rounding =
+        std::fabs(constant) < 1e-11 * std::max(size, std::fabs(slope * low)) || std::fabs(constant) < 1e-13;
+    constant = is_rounding ? 0.0 : constant;
+    steady.push_back({is_angle[i] ? 1 : 0, constant, slope});
   }
   return steady;
 }

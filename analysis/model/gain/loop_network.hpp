@@ -1,4 +1,4 @@
-// A loop of two channels as a network: a linear recursion of its errors, with inputs whose sizes are known
+// A loop as a network: a linear recursion of its errors, with inputs whose sizes are known
 // (docs/gain-proof.md, section 3).
 #pragma once
 
@@ -44,6 +44,10 @@ struct LoopNetwork {
   std::vector<std::vector<DirectTerm>> direct;         ///< of the forms
   std::vector<std::pair<std::size_t, double>> limits;  ///< |form| < room
   rigor::Interval bias;  ///< the frequency error in the steady state, rad/sample
+  /// One channel: what turns with the signal adds to each form, and to each state at the start.
+  std::vector<double> ripple;
+  std::vector<double> ripple_at_start;
+  bool has_ripples = false;  ///< then bounds are for a constant frequency
   /// The one state of which the frequency error is a multiple, and the factor; or none.
   std::optional<std::pair<std::size_t, double>> frequency_state;
 };
@@ -53,8 +57,10 @@ struct LoopNetwork {
 [[nodiscard]] LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
                                        const rigor::Interval& band);
 
-/// By Newton's method, at two frequencies of the band; empty where there is none. Not evidence.
-[[nodiscard]] std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackedTone& tone,
+/// By Newton's method from `start`, at two frequencies; empty where there is none. Not evidence. Throws
+/// NoFrame. Needs the upward rounding mode.
+[[nodiscard]] std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackerModel& tracker,
+                                                                            const StartState& start,
                                                                             double low, double high);
 
 }  // namespace veritrack::model

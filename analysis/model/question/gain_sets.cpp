@@ -114,10 +114,12 @@ class GainSets {
       return;
     }
     const Interval& bias = gains_->network().bias;
-    const double residual = widened(rigor::sub_up(set.settled_error, rigor::magnitude(bias)));
-    constexpr double kRoom = 1e-13;  // for a checker that rounds otherwise
+    const double ripple = gains_->network().ripple.back();
+    const double largest = rigor::sub_up(set.settled_error, rigor::magnitude(bias));
+    const double residual = widened(rigor::sub_up(largest, ripple));  // the ripple's mean is 0
+    constexpr double kRoom = 1e-13;                                   // for a checker that rounds otherwise
     set.bias = bias + Interval::from_bounds(-residual - kRoom, residual + kRoom);
-    set.ripple = 2.0 * residual + kRoom;
+    set.ripple = 2.0 * widened(largest) + kRoom;
   }
 
   /// The largest frequency error at the start, with the other states in the steady state.
@@ -196,27 +198,41 @@ double samples_below(const GainProof& proof, const Interval& target) {
   return INFINITY;
 }
 
+bool is_near_linear(const ProvedSets& by_gains) {
+  constexpr double kNear = 1.6;
+  const GainProof& proof = by_gains.gains.value();
+  if (!proof.gains) {
+    return true;
+  }
+  const LoopDisturbance& assumed = proof.disturbance;
+  return proof.assumed &&
+         proof.assumed->long_run <= kNear * proof.gains->linear_error(assumed.noise, assumed.slew);
+}
+
 std::optional<ProvedSets> prove_by_gains(const SetQuestion& question) {
   constexpr std::size_t kBlocks = 64;
   constexpr double kTail = 1e-8;
   constexpr std::size_t kMostSamples = 1U << 20U;
   const Interval& band = question.whole_band;
   constexpr double kRoundedPi = 3.142;  // somebody may write pi with a few digits
-  if (!question.allows_gains || question.tracker.recursion->samples != 2 ||
-      question.tracker.filter != nullptr || !(std::max(band.upper(), -band.lower()) <= kRoundedPi)) {
+  // One channel does not tell a frequency from its negative.
+  const bool is_one = question.tracker.recursion->samples == 1;
+  if (!question.allows_gains || (is_one && !(band.lower() > 0.0)) || question.tracker.filter != nullptr ||
+      !(std::max(band.upper(), -band.lower()) <= kRoundedPi)) {
     return std::nullopt;
   }
   // At one frequency, a little more shows how the steady state depends on it.
   const double width = std::max(band.upper() - band.lower(), 1e-3);
-  const auto steady = proposed_steady_state(question.tone, band.lower(), band.lower() + width);
-  if (!steady) {
-    return std::nullopt;
-  }
   try {
+    const auto steady =
+        proposed_steady_state(question.tracker, question.tone.start, band.lower(), band.lower() + width);
+    if (!steady) {
+      return std::nullopt;
+    }
     LoopNetwork network = loop_network(question.tracker, *steady, band);
     const std::optional<linear::RadiusBounds> radius = linear::spectral_radius_bounds(network.a);
     if (radius && radius->lower > 1.0) {
-      return unstable({*steady, radius, std::nullopt, std::nullopt});
+      return unstable({*steady, radius, std::nullopt, {}, std::nullopt});
     }
     const auto samples = linear::proposed_horizon(network.a, kBlocks, kTail, kMostSamples);
     std::optional<GainBounds> gains;
@@ -232,7 +248,7 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question) {
     for (const Interval& each : question.deviations) {
       assumed.start.push_back(each.upper());
     }
-    sets.gains = GainProof{*steady, radius, *gains, gains->bounds(assumed)};
+    sets.gains = GainProof{*steady, radius, *gains, assumed, gains->bounds(assumed)};
     return sets;
   } catch (const NoFrame&) {
     return std::nullopt;

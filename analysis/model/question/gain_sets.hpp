@@ -1,5 +1,5 @@
-// The answer to a question by gains, without tubes: for loops of two channels that do not depend on the phase
-// of their signal (docs/gain-proof.md).
+// The answer to a question by gains, without tubes: for loops that do not depend on the phase of their
+// signal, or, with one channel, do so on the average (docs/gain-proof.md).
 #pragma once
 
 #include <optional>
@@ -11,5 +11,9 @@ namespace veritrack::model {
 /// Empty where the rules of gains do not cover the loop, or its steady state was not found. Then tubes may.
 /// The signal must be the tone alone. Needs the upward rounding mode.
 [[nodiscard]] std::optional<ProvedSets> prove_by_gains(const SetQuestion& question);
+
+/// Whether its bound in the long run is near to that of the linear recursion, or the loop is unstable: then
+/// no tube is better. Needs the upward rounding mode.
+[[nodiscard]] bool is_near_linear(const ProvedSets& by_gains);
 
 }  // namespace veritrack::model

@@ -18,7 +18,8 @@ struct GainProof {
   std::vector<SteadyValue> steady;             ///< by state
   std::optional<linear::RadiusBounds> radius;  ///< of the linear recursion
   std::optional<GainBounds> gains;             ///< none of an unstable loop
-  std::optional<LoopBounds> assumed = {};      ///< for the assumed starts, noise and slew
+  LoopDisturbance disturbance = {};            ///< that is assumed
+  std::optional<LoopBounds> assumed = {};      ///< for it
 };
 
 /// The first sample from which on the error is certainly below `target`, rad/sample, for what is assumed;

@@ -26,10 +26,12 @@ struct Bounded {
   GainBounds gains;
 
   Bounded(double kp, double ki, Detector detector)
-      : loop(test::two_channel_loop(kp, ki, detector)),
-        steady(proposed_steady_state(loop.tone, -1.0, 1.0).value()),
-        gains(made(loop, steady)) {}
+      : loop(test::two_channel_loop(kp, ki, detector)), steady(proposed(loop)), gains(made(loop, steady)) {}
 
+  static std::vector<SteadyValue> proposed(const test::TwoChannelExample& loop) {
+    const rigor::UpwardRounding upward;
+    return proposed_steady_state(loop.model, loop.tone.start, -1.0, 1.0).value();
+  }
   static GainBounds made(const test::TwoChannelExample& loop, const std::vector<SteadyValue>& steady) {
     const rigor::UpwardRounding upward;
     return GainBounds::make(loop_network(loop.model, steady, kBand), 4096, 64).value();
@@ -133,7 +135,7 @@ TEST_CASE("runs from random starts with random noise stay within the bounds of e
 TEST_CASE("a wrong steady state makes bounds longer by what it is wrong, or none") {
   const rigor::UpwardRounding upward;
   const test::TwoChannelExample loop(test::two_channel_loop(0.1, 0.004, Detector::sine));
-  std::vector<SteadyValue> steady = proposed_steady_state(loop.tone, -1.0, 1.0).value();
+  std::vector<SteadyValue> steady = proposed_steady_state(loop.model, loop.tone.start, -1.0, 1.0).value();
   steady[1].constant += 1e-3;
   const GainBounds off = GainBounds::make(loop_network(loop.model, steady, kBand), 4096, 64).value();
   const auto bounds = off.bounds({});
@@ -143,10 +145,74 @@ TEST_CASE("a wrong steady state makes bounds longer by what it is wrong, or none
   CHECK_THROWS_AS((void)loop_network(loop.model, steady, kBand), NoFrame);
 }
 
-TEST_CASE("one channel, or a step that depends on the phase, has no network") {
+/// theta' = theta + w + kp e, w' = w + ki e with e = -2 y sin(theta + w): one channel. States theta, w.
+test::ExampleTracker one_channel_loop(double bandwidth) {
+  test::ExampleTracker example;
+  trackers::Recursion& r = example.recursion;
+  r.constants = 3;
+  r.states = 2;
+  r.samples = 1;
+  r.is_angle = {true, false};
+  trackers::StraightLineProgram step(6);
+  const int kp = 0, ki = 1, minus_two = 2, theta = 3, w = 4, y = 5;
+  const auto product = [&](int a, int b) { return step.append(trackers::Operation::multiply, a, b); };
+  const auto sum = [&](int a, int b) { return step.append(trackers::Operation::add, a, b); };
+  const int ahead = sum(theta, w);
+  const int e = product(product(minus_two, y), step.append(trackers::Operation::sin, ahead));
+  step.add_result(sum(ahead, product(kp, e)));
+  step.add_result(sum(w, product(ki, e)));
+  r.step = step;
+  r.frequency = test::frequency_of_state(3, 2, 1);
+  example.constants = {2.0 * 0.7071 * bandwidth, bandwidth * bandwidth, -2.0};
+  example.start = [](double omega) { return std::vector<double>{0.0, omega}; };
+  return example;
+}
+
+TEST_CASE("one channel: what turns with the signal is known, and no attack passes a bound") {
+  for (const double bandwidth : {0.02, 0.001}) {
+    const test::Example loop(one_channel_loop(bandwidth));
+    const Interval band = Interval::from_bounds(0.2, 0.5);
+    std::optional<GainBounds> gains;
+    std::optional<LoopBounds> bounds;
+    const double noise = 0.03;
+    {
+      const rigor::UpwardRounding upward;
+      const auto steady = proposed_steady_state(loop.model, loop.tracker.start, 0.2, 0.5);
+      REQUIRE(steady.has_value());
+      LoopNetwork network = loop_network(loop.model, *steady, band);
+      CHECK(network.has_ripples);
+      const auto samples = linear::proposed_horizon(network.a, 64, 1e-8, 1U << 20U);
+      gains = GainBounds::make(std::move(network), samples.value(), 64);
+      REQUIRE(gains.has_value());
+      bounds = gains->bounds({noise, 0.0, {}});
+      CHECK_FALSE(gains->bounds({noise, 1e-9, {}}).has_value());
+      CHECK(gains->bounds({bandwidth > 0.01 ? 0.1 : 0.25, 0.0, {}}).has_value());
+      CHECK_FALSE(gains->bounds({0.5, 0.0, {}}).has_value());
+    }
+    REQUIRE(bounds.has_value());
+    const std::vector<SteadyValue> steady{{1, 0.0, 0.0}, {0, 0.0, 1.0}};
+    for (const double omega : {0.2, 0.37, 0.5}) {
+      const double reached =
+          attack_loop(test::tone_of(loop.tracker), steady, omega, noise, 0.0, 4 * gains->samples());
+      CHECK(reached <= bounds->for_ever);
+      CHECK(reached >= (bandwidth > 0.01 ? 0.1 : 0.5) * bounds->long_run);
+    }
+    // Without noise only what turns with the signal is left.
+    const rigor::UpwardRounding upward;
+    const auto quiet = gains->bounds({});
+    REQUIRE(quiet.has_value());
+    CHECK(quiet->long_run >= gains->network().ripple.back());
+  }
+}
+
+TEST_CASE("one channel with an amplitude that varies, or a step that depends on the phase, has no network") {
   const rigor::UpwardRounding upward;
-  const test::Example one(test::phase_locked_loop());
-  CHECK_THROWS_AS((void)loop_network(one.model, {{0, 0.0, 1.0}, {1, 0.0, 0.0}}, kBand), NoFrame);
+  test::Example loop(one_channel_loop(0.02));
+  loop.model.amplitude = Interval::from_bounds(0.9, 1.1);
+  loop.model.amplitude_varies = true;
+  CHECK_THROWS_AS(
+      (void)loop_network(loop.model, {{1, 0.0, 0.0}, {0, 0.0, 1.0}}, Interval::from_bounds(0.2, 0.5)),
+      NoFrame);
 }
 
 }  // namespace

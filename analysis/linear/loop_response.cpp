@@ -1,0 +1,86 @@
+#include "analysis/linear/loop_response.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "analysis/rigor/spectral_radius.hpp"
+
+namespace veritrack::linear {
+
+std::vector<LoopMode> modes_of(const LinearLoop& loop) {
+  constexpr double kNothing = 1e-12;
+  std::vector<LoopMode> modes;
+  for (const std::complex<double>& z : rigor::eigenvalues_by_size(loop.a)) {
+    if (z.imag() < 0.0) {
+      continue;  // the other one of a pair
+    }
+    LoopMode mode{z, 0.0, 1.0, 0.0};
+    if (std::abs(z) > kNothing) {
+      const std::complex<double> s = std::log(z);
+      mode.time_constant = -1.0 / s.real();
+      mode.frequency = std::abs(s);
+      mode.damping = -s.real() / std::abs(s);
+    }
+    modes.push_back(mode);
+  }
+  return modes;
+}
+
+double noise_deviation(const LinearLoop& loop, std::size_t samples) {
+  double sum = 0.0;
+  Eigen::RowVectorXd row = loop.estimate;
+  for (std::size_t k = 0; k < samples; ++k) {
+    sum += (row * loop.noise).squaredNorm();
+    row = (row * loop.a).eval();
+  }
+  return std::sqrt(sum);
+}
+
+std::vector<double> followed_share(const LinearLoop& loop, std::size_t samples) {
+  std::vector<double> share;
+  Eigen::VectorXd state = loop.step;
+  for (std::size_t k = 0; k < samples; ++k) {
+    share.push_back(1.0 + loop.estimate.dot(state));
+    state = (loop.a * state).eval();
+  }
+  return share;
+}
+
+double noise_gain(const LinearLoop& loop, double frequency) {
+  const Eigen::Index n = loop.a.rows();
+  const Eigen::MatrixXcd shifted =
+      std::polar(1.0, frequency) * Eigen::MatrixXcd::Identity(n, n) - loop.a.cast<std::complex<double>>();
+  const Eigen::MatrixXcd columns = loop.noise.cast<std::complex<double>>();
+  const Eigen::MatrixXcd response = shifted.partialPivLu().solve(columns);
+  return loop.tone_share * (loop.estimate.cast<std::complex<double>>() * response).norm();
+}
+
+GainMargin gain_margin(const Eigen::MatrixXd& a, const Eigen::VectorXd& effect,
+                       const Eigen::RowVectorXd& detected) {
+  constexpr double kStep = 1.02;
+  constexpr double kMost = 1e3;
+  constexpr int kHalvings = 40;
+  const auto is_stable = [&](double factor) {
+    const Eigen::MatrixXd changed = a + (factor - 1.0) * effect * detected;
+    return rigor::spectral_radius(changed) < 1.0;
+  };
+  // The first factor on the way that is not stable.
+  const auto limit = [&](double step) {
+    double stable = 1.0;
+    while (stable < kMost && stable > 1.0 / kMost && is_stable(stable * step)) {
+      stable *= step;
+    }
+    if (!(stable < kMost && stable > 1.0 / kMost)) {
+      return step > 1.0 ? INFINITY : 0.0;
+    }
+    double unstable = stable * step;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (stable + unstable);
+      (is_stable(middle) ? stable : unstable) = middle;
+    }
+    return stable;
+  };
+  return {limit(1.0 / kStep), limit(kStep)};
+}
+
+}  // namespace veritrack::linear

@@ -1,6 +1,6 @@
-// Values of a loop of one channel or two, measured from the phase of its signal: linear in the deviations of the
-// states and in inputs of known size (docs/gain-proof.md, section 2). Each operation on the same values is
-// made once, so that a value is known by its number.
+// Values of a loop of one channel or two, measured from the phase of its signal: linear in the deviations of
+// the states and in inputs of known size (docs/gain-proof.md, section 2). Each operation on the same values
+// is made once, so that a value is known by its number.
 #pragma once
 
 #include <functional>

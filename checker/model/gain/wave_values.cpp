@@ -111,13 +111,15 @@ void add_remainder(LinearFrame& frame, LinearValue& sum, const WaveRemainder& re
 /// In one channel: adds Re(conj(gamma) M), M in a disc because there is noise in it, or a ripple.
 void add_disc(LinearFrame& frame, LinearValue& sum, const Wave& wave, const LinearValue& phase,
               const InputFactor& gamma) {
-  const Ball amplitude = Ball::hull(power(frame.least_amplitude(), wave.length),
-                                    power(frame.largest_amplitude(), wave.length));
+  const Ball amplitude =
+      Ball::hull(power(frame.least_amplitude(), wave.length), power(frame.largest_amplitude(), wave.length));
   LinearValue unit;
   if (wave.noise > 0) {
     const std::size_t noise = frame.named_input("noise in " + name_of(wave), [&] {
       return FrameInput{
-          [amplitude, n = wave.noise](const Ball& bound) { return amplitude * power(bound, n); }, {}, nullptr};
+          [amplitude, n = wave.noise](const Ball& bound) { return amplitude * power(bound, n); },
+          {},
+          nullptr};
     });
     unit.deviations[noise] = gamma;
     add_deviations(sum, unit, one);

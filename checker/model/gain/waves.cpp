@@ -25,7 +25,8 @@ void add_wave(Waves& sum, Wave wave, std::array<std::int64_t, 2> gamma) {
   if (first == 0) {
     gamma[1] = 0;  // M is real
   }
-  bool is_large = std::abs(wave.length) > kLargestPower || wave.noise > kLargestPower || std::abs(wave.turns) > kLargestPower;
+  bool is_large = std::abs(wave.length) > kLargestPower || wave.noise > kLargestPower ||
+                  std::abs(wave.turns) > kLargestPower;
   for (const auto& angle : wave.angles) {
     is_large = is_large || std::abs(angle.second) > kLargestPower;
   }
@@ -58,7 +59,8 @@ Wave product_of(const Wave& x, const Wave& y, int sign) {
 }  // namespace
 
 std::string name_of(const Wave& wave) {
-  std::string name = std::to_string(wave.noise) + " " + std::to_string(wave.length) + " " + std::to_string(wave.turns) + " (";
+  std::string name = std::to_string(wave.noise) + " " + std::to_string(wave.length) + " " +
+                     std::to_string(wave.turns) + " (";
   for (const int constant : wave.constants) {
     name += std::to_string(constant) + " ";
   }

@@ -1,8 +1,8 @@
 // The angles and the limits of a frame.
+#include "checker/model/gain/linear_frame.hpp"
+
 #include <cmath>
 #include <string>
-
-#include "checker/model/gain/linear_frame.hpp"
 
 namespace veritrack::checker {
 

@@ -22,6 +22,8 @@ class FrameValue {
   static FrameValue state(std::size_t index, const LinearValue& value);
   static FrameValue sample(std::size_t channel) { return FrameValue(sample_waves(channel)); }
 
+  static FrameValue sample_of_one() { return FrameValue(sample_of_one_channel()); }
+
   /// The number of the linear value that it is. Throws NotCovered.
   [[nodiscard]] int linear() const;
 

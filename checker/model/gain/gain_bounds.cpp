@@ -28,7 +28,13 @@ Ball GainErrors::from(const Ball& sample) const {
 GainBounds::Given GainBounds::given(const Ball& noise, const Ball& slew,
                                     const std::vector<Ball>& start) const {
   Given result;
-  const std::optional<Table> of_start = kernels_.starts(start);
+  std::vector<Ball> without_ripples = start;
+  for (const GainRipple& ripple : network_->ripples) {
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      without_ripples[i] += ripple.of_state[i];
+    }
+  }
+  const std::optional<Table> of_start = kernels_.starts(without_ripples);
   if (!of_start) {
     result.is_known = false;
     return result;
@@ -36,6 +42,9 @@ GainBounds::Given GainBounds::given(const Ball& noise, const Ball& slew,
   result.start = *of_start;
   for (std::size_t form = 0; form < network_->forms.size(); ++form) {
     double sum = 0.0;
+    for (const GainRipple& ripple : network_->ripples) {
+      sum += upper(ripple.of_form[form]);
+    }
     for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
       const GainInput& entry = network_->inputs[input];
       if (!entry.is_remainder()) {
@@ -121,7 +130,7 @@ bool GainBounds::keeps_limits(const std::vector<double>& bounds) const {
   });
 }
 
-double GainBounds::in_long_run(std::vector<double> bounds, const Given& given) const {
+std::vector<double> GainBounds::in_long_run(std::vector<double> bounds, const Given& given) const {
   Table totals(bounds.size(), std::vector<double>(network_->inputs.size()));
   for (std::size_t form = 0; form < bounds.size(); ++form) {
     for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
@@ -148,13 +157,25 @@ double GainBounds::in_long_run(std::vector<double> bounds, const Given& given) c
       break;
     }
   }
-  return bounds[network_->error_form];
+  return bounds;
+}
+
+Ball GainBounds::mean(const std::vector<double>& bounds) const {
+  // The response c Pi e^(jt phi) z has no mean where z does not change; |z - size e^(j constant)| is at most
+  // the size of the angle's deviation, and the mean at most the size of z.
+  Ball result(bounds[network_->error_form]);
+  for (const GainRipple& ripple : network_->ripples) {
+    const Ball& most = ripple.of_form[network_->error_form];
+    result -= most * (one - min(one, Ball(bounds[ripple.angle_form])));
+  }
+  return result;
 }
 
 std::optional<GainErrors> GainBounds::errors(const Ball& noise, const Ball& slew,
                                              const std::vector<Ball>& start) const {
   if (!is_certain() || start.size() != network_->states() || !certainly_not_negative(noise) ||
-      !certainly_not_negative(slew) || !certainly_less(noise, network_->least_amplitude)) {
+      !certainly_not_negative(slew) || (!network_->ripples.empty() && !certainly_equal(slew, zero)) ||
+      !certainly_less(noise, network_->least_amplitude)) {
     return std::nullopt;
   }
   const std::size_t blocks = kernels_.blocks();
@@ -184,7 +205,8 @@ std::optional<GainErrors> GainBounds::errors(const Ball& noise, const Ball& slew
       for (const std::vector<double>& of_block : bounds) {
         error.push_back(of_block[network_->error_form]);
       }
-      return GainErrors(error, in_long_run(bounds.back(), known), upper(abs(network_->bias)),
+      const std::vector<double> late = in_long_run(bounds.back(), known);
+      return GainErrors(error, late[network_->error_form], mean(late), upper(abs(network_->bias)),
                         kernels_.block_length());
     }
     bounds = std::move(raised);

@@ -13,8 +13,14 @@ namespace veritrack::checker {
 /// Bounds on the frequency error of a network, for certain noise, slew and starts.
 class GainErrors {
  public:
-  GainErrors(std::vector<double> by_block, double in_long_run, double bias, std::size_t block_length)
-      : by_block_(std::move(by_block)), in_long_run_(in_long_run), bias_(bias), block_length_(block_length) {}
+  /// `mean`: a bound of the mean over the phase in the long run, without the bias.
+  GainErrors(std::vector<double> by_block, double in_long_run, Ball mean, double bias,
+             std::size_t block_length)
+      : by_block_(std::move(by_block)),
+        in_long_run_(in_long_run),
+        mean_(std::move(mean)),
+        bias_(bias),
+        block_length_(block_length) {}
 
   /// At every sample.
   [[nodiscard]] Ball for_ever() const { return from_block(0); }
@@ -24,12 +30,14 @@ class GainErrors {
   [[nodiscard]] Ball in_long_run() const { return Ball(in_long_run_) + Ball(bias_); }
   /// The same without the bias.
   [[nodiscard]] Ball deviation_in_long_run() const { return Ball(in_long_run_); }
+  [[nodiscard]] const Ball& mean_in_long_run() const { return mean_; }
 
  private:
   [[nodiscard]] Ball from_block(std::size_t block) const;
 
   std::vector<double> by_block_;  ///< without the bias
   double in_long_run_;
+  Ball mean_;
   double bias_;
   std::size_t block_length_;
 };
@@ -43,7 +51,7 @@ class GainBounds {
   /// Whether the sums over all samples are bounded.
   [[nodiscard]] bool is_certain() const { return kernels_.is_certain(); }
   /// The bounds for |v| <= noise, |change of omega| <= slew and |xi_0| <= start by state; nothing where they
-  /// are not certain.
+  /// are not certain, as with ripples and a slew that is not 0.
   [[nodiscard]] std::optional<GainErrors> errors(const Ball& noise, const Ball& slew,
                                                  const std::vector<Ball>& start) const;
 
@@ -51,7 +59,7 @@ class GainBounds {
   /// What does not change from round to round.
   struct Given {
     Table start;                  ///< T, by form and block
-    std::vector<double> outside;  ///< by form: of the inputs that are no remainders
+    std::vector<double> outside;  ///< by form: of the inputs that are no remainders, and ripples
     bool is_known = true;
   };
   [[nodiscard]] Given given(const Ball& noise, const Ball& slew, const std::vector<Ball>& start) const;
@@ -59,7 +67,10 @@ class GainBounds {
   [[nodiscard]] std::vector<double> sizes(const std::vector<double>& bounds) const;
   /// The bounds of the theorem, by block and form, from such bounds.
   [[nodiscard]] Table next(const Table& bounds, const Given& given) const;
-  [[nodiscard]] double in_long_run(std::vector<double> bounds, const Given& given) const;
+  /// By form.
+  [[nodiscard]] std::vector<double> in_long_run(std::vector<double> bounds, const Given& given) const;
+  /// Of the form of the error, where these are the bounds of the long run.
+  [[nodiscard]] Ball mean(const std::vector<double>& bounds) const;
   [[nodiscard]] bool keeps_limits(const std::vector<double>& bounds) const;
 
   const GainNetwork* network_;

@@ -59,7 +59,7 @@ bool GainClaims::mean_is_between(const Ball& low, const Ball& high) const {
   if (!settled) {
     return false;
   }
-  const Ball mean = gains_->network.bias + Ball::within(settled->deviation_in_long_run());
+  const Ball mean = gains_->network.bias + Ball::within(settled->mean_in_long_run());
   return certainly_at_most(low, mean) && certainly_at_most(mean, high);
 }
 
@@ -199,6 +199,8 @@ Claim GainClaims::steady_state(const Tree& claim) const {
 
 Claim GainClaims::stability(const Tree& claim) const {
   Claim found;
+  // To first order, a ripple changes with the errors: the loop is no recursion with one matrix.
+  const bool is_constant = gains_ != nullptr && gains_->network.ripples.empty();
   found.is_summary = true;
   found.hypotheses = words_.constant_tone() + ", without noise";
   if (const Tree* growth = claim.find("growth")) {
@@ -208,8 +210,8 @@ Claim GainClaims::stability(const Tree& claim) const {
         ", the loop is stable: to first order, no error about the steady state of the certificate "
         "grows by a factor of " +
         growth->text() + " or more each sample.";
-    const bool grows = gains_ != nullptr && certainly_at_most(one, factor) &&
-                       an_eigenvalue_beyond(gains_->network.matrix, factor);
+    const bool grows =
+        is_constant && certainly_at_most(one, factor) && an_eigenvalue_beyond(gains_->network.matrix, factor);
     found.verdict = grows ? Verdict::refuted : Verdict::undecided;
     return found;
   }
@@ -219,7 +221,7 @@ Claim GainClaims::stability(const Tree& claim) const {
       ", the loop is stable: to first order, errors about the steady state of the certificate shrink "
       "in the long run by a factor of at most " +
       claim.at("decay").text() + " each sample.";
-  found.verdict = proved_if(gains_ != nullptr && certainly_less(factor, one) &&
+  found.verdict = proved_if(is_constant && certainly_less(factor, one) &&
                             all_eigenvalues_within(gains_->network.matrix, factor));
   return found;
 }

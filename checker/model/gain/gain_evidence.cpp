@@ -24,10 +24,11 @@ std::vector<SteadyState> read_steady_state(const Tree& list, Objections& objecti
   return steady;
 }
 
-/// The samples are those of a tone in phase and in quadrature.
-bool is_tone_of_two_channels(const Tree& model) {
+/// The samples are those of a tone, in one channel or in phase and in quadrature.
+bool is_tone_alone(const Tree& model) {
   const std::vector<Tree>& signal = model.at("signal").elements();
-  return signal.size() == 2 && signal[0].text() == "A*cos(phi)" && signal[1].text() == "A*sin(phi)";
+  return (signal.size() == 1 || (signal.size() == 2 && signal[1].text() == "A*sin(phi)")) &&
+         signal[0].text() == "A*cos(phi)";
 }
 
 }  // namespace
@@ -42,9 +43,14 @@ std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const Mo
       horizon % blocks != 0) {
     objections.emplace_back("the blocks do not divide the horizon, or there are too many");
   }
-  if (recursion.samples() != 2 || recursion.filtered() > 0 || !is_tone_of_two_channels(model) ||
-      design.deviation || !design.start.empty()) {
-    objections.emplace_back("gains are for a loop on a tone in phase and in quadrature, in bounded noise");
+  if (recursion.filtered() > 0 || !is_tone_alone(model) || design.deviation || !design.start.empty()) {
+    objections.emplace_back(
+        recursion.samples() == 2
+            ? "gains are for a loop on a tone in phase and in quadrature, in bounded noise"
+            : "gains are for a loop on a tone alone, in bounded noise");
+  }
+  if (recursion.samples() == 1 && !certainly_positive(design.lowest)) {
+    objections.emplace_back("in one channel, gains are for frequencies above 0");
   }
   if (!objections.empty()) {
     return nullptr;

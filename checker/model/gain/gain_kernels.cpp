@@ -41,6 +41,9 @@ bool GainKernels::read(const GainNetwork& network) {
     }
     inputs_.push_back(std::move(both));
   }
+  for (const GainRipple& ripple : network.ripples) {
+    inputs_[ripple.input].assign(2, WideRow(n));  // its response is known (gain_ripples.hpp)
+  }
   for (const GainForm& form : network.forms) {
     rows_.emplace_back();
     for (const Ball& factor : form.row) {

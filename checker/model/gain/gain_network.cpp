@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "checker/model/gain/frame_value.hpp"
+#include "checker/model/gain/gain_ripples.hpp"
 
 namespace veritrack::checker {
 
@@ -107,14 +108,21 @@ std::vector<FrameValue> frame_states(const std::vector<SteadyState>& steady,
 GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& design,
                          const std::vector<SteadyState>& steady) {
   const std::size_t n = recursion.states();
-  if (recursion.samples() != 2 || recursion.filtered() > 0 || steady.size() != n) {
-    throw NotCovered("gains are for loops of two channels, with one steady state for each state");
+  if (recursion.filtered() > 0 || steady.size() != n) {
+    throw NotCovered("gains are for loops with one steady state for each state");
   }
-  LinearFrame frame(n, design.least_amplitude, design.largest_amplitude, design.lowest, design.highest);
+  if (recursion.samples() == 1 && design.amplitude_varies) {
+    throw NotCovered("in one channel, gains are for one amplitude at all samples");
+  }
+  LinearFrame frame(n, design.least_amplitude, design.largest_amplitude, design.lowest, design.highest,
+                    recursion.samples());
   const FrameScope scope(frame);
   const std::vector<FrameValue> state = frame_states(steady, recursion.is_angle());
+  const std::vector<FrameValue> samples =
+      frame.has_one_channel() ? std::vector<FrameValue>{FrameValue::sample_of_one()}
+                              : std::vector<FrameValue>{FrameValue::sample(0), FrameValue::sample(1)};
   std::vector<int> next;
-  for (const FrameValue& value : recursion.next(state, {FrameValue::sample(0), FrameValue::sample(1)})) {
+  for (const FrameValue& value : recursion.next(state, samples)) {
     next.push_back(value.linear());
   }
   const int error = (recursion.frequency(state)).linear();
@@ -159,6 +167,7 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
   }
   slew.size = [](const Ball& /*noise*/, const Ball& most) { return most; };
   network.inputs.push_back(std::move(slew));
+  add_ripples(frame.inputs(), design.lowest, design.highest, network);
   return network;
 }
 

@@ -1,5 +1,5 @@
-// The errors of a loop of two channels about its steady state: a linear recursion with inputs of known size
-// (docs/gain-proof.md, section 3).
+// The errors of a loop of one channel or two about its steady state: a linear recursion with inputs of known
+// size (docs/gain-proof.md, section 3).
 #pragma once
 
 #include <cstddef>
@@ -43,15 +43,28 @@ struct GainLimit {
   Ball base, low, high;
 };
 
+/// An input that turns with the signal, z e^(j turns phi_(k+1)) with |z| = size. Its responses are known; its
+/// column is no part of the sums over earlier samples.
+struct GainRipple {
+  std::size_t input = 0;
+  long turns = 0;
+  Ball size;
+  std::size_t angle_form = 0;   ///< of z, but for a constant
+  std::size_t change_form = 0;  ///< by which this angle changes at a sample
+  /// At least |c Pi| size of each form, and |Pi| size of each state.
+  std::vector<Ball> of_form, of_state;
+};
+
 struct GainNetwork {
   std::vector<std::vector<Ball>> matrix;
   std::vector<GainInput> inputs;
   std::vector<GainForm> forms;
   std::vector<GainLimit> limits;
-  std::size_t error_form = 0;   ///< h(X_k) - omega_k, less the bias
-  Ball bias;                    ///< over the band
-  std::vector<Ball> frequency;  ///< the row of the frequency
-  Ball least_amplitude;         ///< noise must be below it
+  std::vector<GainRipple> ripples;  ///< at a constant frequency only
+  std::size_t error_form = 0;       ///< h(X_k) - omega_k, less the bias
+  Ball bias;                        ///< over the band
+  std::vector<Ball> frequency;      ///< the row of the frequency
+  Ball least_amplitude;             ///< noise must be below it
 
   [[nodiscard]] std::size_t states() const { return matrix.size(); }
 };

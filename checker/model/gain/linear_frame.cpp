@@ -34,8 +34,9 @@ void add_deviations(LinearValue& sum, const LinearValue& x, const Ball& factor) 
 }
 
 LinearFrame::LinearFrame(std::size_t states, Ball least_amplitude, Ball largest_amplitude, const Ball& lowest,
-                         const Ball& highest)
+                         const Ball& highest, std::size_t channels)
     : states_(states),
+      channels_(channels),
       least_(std::move(least_amplitude)),
       largest_(std::move(largest_amplitude)),
       frequency_(Ball::hull(lowest, highest)) {}

@@ -1,6 +1,6 @@
-// Values of a loop of two channels, measured from the phase of its signal: linear in the deviations of the
-// states and in inputs of known size (docs/gain-proof.md, section 2). Each operation on the same values is
-// made once, so that a value is known by its number.
+// Values of a loop of one channel or two, measured from the phase of its signal: linear in the deviations of
+// the states and in inputs of known size (docs/gain-proof.md, section 2). Each operation on the same values
+// is made once, so that a value is known by its number.
 #pragma once
 
 #include <functional>
@@ -35,6 +35,14 @@ struct LinearValue {
   }
 };
 
+/// An input z e^(j turns phi_(k+1)), where z has a length that is the same at all samples, and an angle that
+/// is a constant and this form in the deviations of states (docs/gain-proof.md, section 9).
+struct FrameRipple {
+  long turns = 0;
+  std::map<std::size_t, Ball> angle;
+  Ball size;
+};
+
 /// What comes from outside of the linear recursion, one for each sample: noise, or a remainder.
 struct FrameInput {
   /// Of noise: the size for this bound on the noise.
@@ -42,6 +50,9 @@ struct FrameInput {
   /// Of a remainder: the values whose deviations it is about, and the size where these are at most as large.
   std::vector<int> about;
   std::function<Ball(const std::vector<Ball>& bounds)> at_bounds;
+
+  /// Of a ripple; its size is at_noise, too.
+  std::optional<FrameRipple> ripple = std::nullopt;
 
   [[nodiscard]] bool is_remainder() const { return !about.empty(); }
 };
@@ -54,9 +65,9 @@ struct FrameLimit {
 
 class LinearFrame {
  public:
-  /// Amplitudes and frequencies are anywhere in these ranges.
+  /// Amplitudes and frequencies are anywhere in these ranges. Samples have one channel or two.
   LinearFrame(std::size_t states, Ball least_amplitude, Ball largest_amplitude, const Ball& lowest,
-              const Ball& highest);
+              const Ball& highest, std::size_t channels);
 
   // Each returns the number of the value. Throws NotCovered.
   int number(const Ball& value);
@@ -97,6 +108,7 @@ class LinearFrame {
   [[nodiscard]] const Ball& least_amplitude() const { return least_; }
   [[nodiscard]] const Ball& largest_amplitude() const { return largest_; }
   [[nodiscard]] std::size_t states() const { return states_; }
+  [[nodiscard]] bool has_one_channel() const { return channels_ == 1; }
   [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
 
@@ -108,7 +120,7 @@ class LinearFrame {
   [[nodiscard]] LinearValue product_of_plain(int x, int y);
   [[nodiscard]] LinearValue value_of_function(const std::string& name, int x);
 
-  std::size_t states_;
+  std::size_t states_, channels_;
   Ball least_, largest_, frequency_;
   std::map<std::string, int> names_;
   std::vector<LinearValue> values_;

@@ -53,7 +53,7 @@ int angle_of(LinearFrame& frame, const Wave& wave) {
 }  // namespace
 
 std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, const Waves& x) {
-  if (x.size() != 1 || y.size() != 1 || x.begin()->first != y.begin()->first) {
+  if (x.size() != 1 || y.size() != 1 || x.begin()->first != y.begin()->first || has_noise(x)) {
     return std::nullopt;
   }
   const auto [real, imaginary] = x.begin()->second;
@@ -73,7 +73,7 @@ std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, 
 
 int argument(LinearFrame& frame, const TurnedWave& turned) {
   int result = angle_of(frame, turned.wave);
-  if (turned.wave.turns != 0) {
+  if (turned.wave.turns != 0 && !frame.has_one_channel()) {
     result = frame.sum(result, frame.product(frame.number(Ball(turned.wave.turns)), frame.noise_angle()));
   }
   if (turned.quarters != 0) {
@@ -108,6 +108,37 @@ void add_remainder(LinearFrame& frame, LinearValue& sum, const WaveRemainder& re
   add_deviations(sum, unit, factor);
 }
 
+/// In one channel: adds Re(conj(gamma) M), M in a disc because there is noise in it, or a ripple.
+void add_disc(LinearFrame& frame, LinearValue& sum, const Wave& wave, const LinearValue& phase,
+              const InputFactor& gamma) {
+  const Ball amplitude =
+      Ball::hull(power(frame.least_amplitude(), wave.length), power(frame.largest_amplitude(), wave.length));
+  LinearValue unit;
+  if (wave.noise > 0) {
+    const std::size_t noise = frame.named_input("noise in " + name_of(wave), [&] {
+      return FrameInput{
+          [amplitude, n = wave.noise](const Ball& bound) { return amplitude * power(bound, n); },
+          {},
+          nullptr};
+    });
+    unit.deviations[noise] = gamma;
+    add_deviations(sum, unit, one);
+    return;
+  }
+  FrameRipple ripple{phase.turns, {}, amplitude.upper()};
+  for (const auto& [source, factor] : phase.deviations) {
+    if (source >= frame.states()) {
+      throw NotCovered("the angle of a ripple depends on more than the states");
+    }
+    ripple.angle[source] = factor.first;
+  }
+  const std::size_t input = frame.named_input("ripple " + name_of(wave), [&] {
+    return FrameInput{[size = ripple.size](const Ball& /*bound*/) { return size; }, {}, nullptr, ripple};
+  });
+  unit.deviations[input] = gamma;
+  add_deviations(sum, unit, one);
+}
+
 /// Adds Re(conj(gamma) M) as a linear value; gamma = (real, imaginary).
 void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ball& real,
                 const Ball& imaginary) {
@@ -115,6 +146,10 @@ void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ba
   const int m = wave.turns;
   const int angle = angle_of(frame, wave);
   const LinearValue phase = frame.at(angle);
+  if (frame.has_one_channel() && (wave.noise > 0 || phase.turns != 0)) {
+    add_disc(frame, sum, wave, phase, {real, imaginary});
+    return;
+  }
   if (phase.turns != 0) {
     throw NotCovered("a value that depends on the phase of the signal is used other than in products");
   }
@@ -124,7 +159,7 @@ void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ba
   const Ball c1 = amplitude * (imaginary * cos(b) - real * sin(b));
   sum.constant += c0;
   add_deviations(sum, phase, c1);
-  if (s != 0 || m != 0) {
+  if (!frame.has_one_channel() && (s != 0 || m != 0)) {
     const std::size_t noise = frame.named_input("noise in " + name_of(wave), [&] {
       return FrameInput{[least = frame.least_amplitude(), largest = frame.largest_amplitude(), s,
                          m](const Ball& bound) { return noise_in_wave(least, largest, s, m, bound); },

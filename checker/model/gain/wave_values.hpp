@@ -20,7 +20,8 @@ std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, 
 /// The value of the argument of x + j y, modulo 2 pi.
 int argument(LinearFrame& frame, const TurnedWave& wave);
 
-/// As a linear value. Throws NotCovered where a wave depends on the phase.
+/// As a linear value. Throws NotCovered where a wave depends on the phase; in one channel it is a ripple
+/// then.
 int linear_value(LinearFrame& frame, const Waves& waves);
 
 }  // namespace veritrack::checker

@@ -25,7 +25,8 @@ void add_wave(Waves& sum, Wave wave, std::array<std::int64_t, 2> gamma) {
   if (first == 0) {
     gamma[1] = 0;  // M is real
   }
-  bool is_large = std::abs(wave.length) > kLargestPower || std::abs(wave.turns) > kLargestPower;
+  bool is_large = std::abs(wave.length) > kLargestPower || wave.noise > kLargestPower ||
+                  std::abs(wave.turns) > kLargestPower;
   for (const auto& angle : wave.angles) {
     is_large = is_large || std::abs(angle.second) > kLargestPower;
   }
@@ -46,6 +47,7 @@ Wave product_of(const Wave& x, const Wave& y, int sign) {
   std::sort(result.constants.begin(), result.constants.end());
   result.length += y.length;
   result.turns += sign * y.turns;
+  result.noise += y.noise;
   std::map<int, int> angles(x.angles.begin(), x.angles.end());
   for (const auto& [angle, times] : y.angles) {
     angles[angle] += sign * times;
@@ -57,7 +59,8 @@ Wave product_of(const Wave& x, const Wave& y, int sign) {
 }  // namespace
 
 std::string name_of(const Wave& wave) {
-  std::string name = std::to_string(wave.length) + " " + std::to_string(wave.turns) + " (";
+  std::string name = std::to_string(wave.noise) + " " + std::to_string(wave.length) + " " +
+                     std::to_string(wave.turns) + " (";
   for (const int constant : wave.constants) {
     name += std::to_string(constant) + " ";
   }
@@ -71,6 +74,14 @@ std::string name_of(const Wave& wave) {
 Waves sample_waves(std::size_t channel) {
   return {{Wave{{}, 1, 1, {}}, channel == 0 ? std::array<std::int64_t, 2>{kExactUnit, 0}
                                             : std::array<std::int64_t, 2>{0, kExactUnit}}};
+}
+
+Waves sample_of_one_channel() {
+  return {{Wave{{}, 1, 1, {}, 0}, {kExactUnit, 0}}, {Wave{{}, 0, 0, {}, 1}, {kExactUnit, 0}}};
+}
+
+bool has_noise(const Waves& x) {
+  return std::any_of(x.begin(), x.end(), [](const auto& entry) { return entry.first.noise != 0; });
 }
 
 Waves cosine_wave(int value) {

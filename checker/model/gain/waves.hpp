@@ -16,13 +16,15 @@
 
 namespace veritrack::checker {
 
-/// |y|^length e^(j (turns arg y + sum of times L)), times named constants.
+/// |y|^length e^(j (turns arg y + sum of times L)), times named constants. In one channel
+/// v^noise A^length e^(j (turns phi' + sum of times L)), with the noise v and the phase phi' of the sample.
 struct Wave {
   std::vector<int> constants;  ///< in order
   int length = 0;
   int turns = 0;
   std::vector<std::pair<int, int>>
-      angles;  ///< the numbers of the values L, in order, and times that are not 0
+      angles;     ///< the numbers of the values L, in order, and times that are not 0
+  int noise = 0;  ///< in one channel
   auto operator<=>(const Wave&) const = default;
 };
 
@@ -32,6 +34,8 @@ using Waves = std::map<Wave, std::array<std::int64_t, 2>>;
 
 /// The samples: the real and the imaginary part of y.
 Waves sample_waves(std::size_t channel);
+/// The sample of one channel: A cos(phi') + v.
+Waves sample_of_one_channel();
 /// cos and sin of a value.
 Waves cosine_wave(int value);
 Waves sine_wave(int value);
@@ -40,6 +44,8 @@ Waves constant_wave(const ConstantFactors& constant);
 Waves sum(const Waves& x, const Waves& y);
 Waves negated(const Waves& x);
 Waves product(const Waves& x, const Waves& y);
+/// Whether there is noise of one channel in it.
+bool has_noise(const Waves& x);
 /// s if the sum is |y|^s and nothing else, s > 0.
 std::optional<int> power_of_length(const Waves& x);
 /// x/|y|^s.

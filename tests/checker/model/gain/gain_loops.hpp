@@ -1,4 +1,4 @@
-// Loops of two channels for tests, and their bounds by gains.
+// Loops for tests, of two channels unless they say so, and their bounds by gains.
 #pragma once
 
 #include <memory>
@@ -24,19 +24,26 @@ struct Loop {
   double lowest = 0.1, highest = 0.5;
   double least_amplitude = 1.0, largest_amplitude = 1.0;
   std::vector<std::string> angles{"phase"};
+  bool has_one_channel = false;
+  bool amplitude_varies = false;
 
   [[nodiscard]] Json model() const {
     Json list = Json::array();
     for (const auto& [name, formula] : parameters.items()) {
       list.push_back({{"name", name}, {"formula", formula}});
     }
-    return {{"samples", {"i", "q"}},
+    const std::vector<std::string> samples =
+        has_one_channel ? std::vector<std::string>{"y"} : std::vector<std::string>{"i", "q"};
+    const std::vector<std::string> signal = has_one_channel
+                                                ? std::vector<std::string>{"A*cos(phi)"}
+                                                : std::vector<std::string>{"A*cos(phi)", "A*sin(phi)"};
+    return {{"samples", samples},
             {"parameters", list},
             {"angles", angles},
             {"states", states},
             {"step", step},
             {"frequency", frequency},
-            {"signal", {"A*cos(phi)", "A*sin(phi)"}}};
+            {"signal", signal}};
   }
   [[nodiscard]] checker::ModelDesign design() const {
     checker::ModelDesign result;
@@ -45,6 +52,7 @@ struct Loop {
     result.amplitude = Ball::hull(result.least_amplitude, result.largest_amplitude);
     result.lowest = Ball(lowest);
     result.highest = Ball(highest);
+    result.amplitude_varies = amplitude_varies;
     return result;
   }
   /// Throws NotCovered.
@@ -105,6 +113,20 @@ inline Loop gnss_loop() {
           "nco' = nco + 0.0533*(d' - d) + (d' + d)*0.00072\nphase' = ahead\n",
           "nco",
           {{1, 0.0, 0.0}, {0, 0.0, 1.0}, {0, 0.0, 0.0}}};
+}
+
+/// The loop of type 2 with a multiplying phase detector, of one channel (designs/models/type-2-pll.toml).
+inline Loop type_2_loop(const std::string& wn) {
+  Loop loop{{"theta", "w"},
+            {{"a_wn", wn}, {"b_zeta", "0.7071"}, {"c_ki", "a_wn^2"}, {"d_kp", "2*b_zeta*a_wn"}},
+            "e = -2*y*sin(theta + w)\nw' = w + c_ki*e\ntheta' = theta + w + d_kp*e\n",
+            "w",
+            {{1, 0.0, 0.0}, {0, 0.0, 1.0}},
+            0.2,
+            0.5};
+  loop.angles = {"theta"};
+  loop.has_one_channel = true;
+  return loop;
 }
 
 /// The largest noise, to three digits, at which the errors are certain from the steady state.

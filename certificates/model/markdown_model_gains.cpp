@@ -37,7 +37,10 @@ std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions
   add(fmt::format("slew of at most {} {}", assume.slew.text,
                   assume.slew_in_hertz_per_second ? "Hz per second" : "rad/sample per sample"),
       budget.slew);
-  add("curvature of the loop's functions at these errors", budget.remainders);
+  add(budget.ripple > 0.0
+          ? "curvature of the loop's functions, and what turns with the signal to second order"
+          : "curvature of the loop's functions at these errors",
+      budget.remainders);
   add("what turns with the signal, to first order", budget.ripple);
   add("bias of the steady state, and the rounding of the certificate", budget.steady_state);
   rows.push_back({"together", units.at_most(bounds.long_run), "100 %"});
@@ -201,12 +204,17 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
   const ModelSets& sets = model_sets(certificate);
   const model::GainProof& proof = *sets.gains;
   const FrequencyUnits units(assume.sample_rate);
-  std::string text =
-      "## The errors of this loop\n\nThe loop does not depend on the phase at which its signal begins: with "
-      "angles measured from the phase of the signal it has one steady state, and its errors obey a linear "
-      "recursion up to remainders that are bounded in closed form. Each bound is the sum of the worst that "
-      "every "
-      "earlier sample can contribute.\n\n";
+  const bool is_average = proof.gains && proof.gains->network().has_ripples;
+  std::string text = fmt::format(
+      "## The errors of this loop\n\n{}: with angles measured from the phase of the signal it has one steady "
+      "state, "
+      "and its errors obey a linear recursion up to remainders that are bounded in closed form. Each bound "
+      "is the sum "
+      "of the worst that every earlier sample can contribute.\n\n",
+      is_average ? "On the average the loop does not depend on the phase of its signal, and what turns with "
+                   "the signal "
+                   "is known"
+                 : "The loop does not depend on the phase at which its signal begins");
   if (!proof.gains) {
     text += stability_text(certificate);
   } else if (proof.assumed) {
@@ -236,7 +244,8 @@ std::string gains_coverage_section(const ModelTables& tables) {
       "the "
       "noise.\n"
       "- *The steady state of the certificate* is the table above: the state in which the loop stays without "
-      "noise, up to rounding. *A certified invariant set* is the set of all states that the loop can reach "
+      "noise, up to rounding and to what turns with the signal. *A certified invariant set* is the set of "
+      "all states that the loop can reach "
       "from "
       "there, or from the starts that a statement names.\n"
       "- UNDECIDED refutes nothing.\n"

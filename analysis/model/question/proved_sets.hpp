@@ -16,7 +16,7 @@ namespace veritrack::model {
 /// state, or from the assumed starts.
 struct GainProof {
   std::vector<SteadyValue> steady;             ///< by state
-  std::optional<linear::RadiusBounds> radius;  ///< of the linear recursion
+  std::optional<linear::RadiusBounds> radius;  ///< of the linear recursion, where that is constant
   std::optional<GainBounds> gains;             ///< none of an unstable loop
   LoopDisturbance disturbance = {};            ///< that is assumed
   std::optional<LoopBounds> assumed = {};      ///< for it

@@ -199,8 +199,7 @@ Claim GainClaims::steady_state(const Tree& claim) const {
 
 Claim GainClaims::stability(const Tree& claim) const {
   Claim found;
-  // To first order, a ripple changes with the errors: the loop is no recursion with one matrix.
-  const bool is_constant = gains_ != nullptr && gains_->network.ripples.empty();
+  const bool has_one_matrix = gains_ != nullptr && gains_->network.has_one_matrix();
   found.is_summary = true;
   found.hypotheses = words_.constant_tone() + ", without noise";
   if (const Tree* growth = claim.find("growth")) {
@@ -210,8 +209,8 @@ Claim GainClaims::stability(const Tree& claim) const {
         ", the loop is stable: to first order, no error about the steady state of the certificate "
         "grows by a factor of " +
         growth->text() + " or more each sample.";
-    const bool grows =
-        is_constant && certainly_at_most(one, factor) && an_eigenvalue_beyond(gains_->network.matrix, factor);
+    const bool grows = has_one_matrix && certainly_at_most(one, factor) &&
+                       an_eigenvalue_beyond(gains_->network.matrix, factor);
     found.verdict = grows ? Verdict::refuted : Verdict::undecided;
     return found;
   }
@@ -221,7 +220,7 @@ Claim GainClaims::stability(const Tree& claim) const {
       ", the loop is stable: to first order, errors about the steady state of the certificate shrink "
       "in the long run by a factor of at most " +
       claim.at("decay").text() + " each sample.";
-  found.verdict = proved_if(is_constant && certainly_less(factor, one) &&
+  found.verdict = proved_if(has_one_matrix && certainly_less(factor, one) &&
                             all_eigenvalues_within(gains_->network.matrix, factor));
   return found;
 }

@@ -67,6 +67,8 @@ struct GainNetwork {
   Ball least_amplitude;             ///< noise must be below it
 
   [[nodiscard]] std::size_t states() const { return matrix.size(); }
+  /// Whether the errors obey the matrix to first order. A ripple changes with them, at each phase otherwise.
+  [[nodiscard]] bool has_one_matrix() const { return ripples.empty(); }
 };
 
 /// Throws NotCovered where the method says nothing. One steady state for each state; turns of angles alone.

@@ -2,35 +2,19 @@
 // better is.
 #include <doctest/doctest.h>
 
-#include <cstdio>
 #include <functional>
 #include <string>
 
 #include "checker/verification.hpp"
+#include "tests/checker/model/gain/gain_certificates.hpp"
 #include "tests/checker/model/gain/gain_loops.hpp"
 
 namespace veritrack::checker {
 namespace {
 
+using test::claim;
+using test::decimal;
 using test::Json;
-
-/// A number of a design; the ends are a little wider than the decimal.
-Json decimal(const std::string& text) {
-  const Ball value = from_decimal(text);
-  const auto hexadecimal = [](double x) {
-    std::array<char, 64> written{};
-    (void)std::snprintf(written.data(), written.size(), "%a", x);
-    return std::string(written.data());
-  };
-  return {
-      {"text", text}, {"lo", hexadecimal(value.lower_double())}, {"hi", hexadecimal(value.upper_double())}};
-}
-
-Json claim(const std::string& id, bool required, const Json& values) {
-  Json result{{"id", id}, {"verdict", "proved"}, {"required", required}, {"evidence", Json::object()}};
-  result.update(values);
-  return result;
-}
 
 Json motor_certificate() {
   Json certificate;

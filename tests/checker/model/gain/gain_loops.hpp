@@ -37,13 +37,8 @@ struct Loop {
     const std::vector<std::string> signal = has_one_channel
                                                 ? std::vector<std::string>{"A*cos(phi)"}
                                                 : std::vector<std::string>{"A*cos(phi)", "A*sin(phi)"};
-    return {{"samples", samples},
-            {"parameters", list},
-            {"angles", angles},
-            {"states", states},
-            {"step", step},
-            {"frequency", frequency},
-            {"signal", signal}};
+    return {{"samples", samples}, {"parameters", list},     {"angles", angles}, {"states", states},
+            {"step", step},       {"frequency", frequency}, {"signal", signal}};
   }
   [[nodiscard]] checker::ModelDesign design() const {
     checker::ModelDesign result;

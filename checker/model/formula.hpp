@@ -128,6 +128,16 @@ Scalar value_of_function(const std::string& name, const std::vector<Scalar>& arg
   if (is("atan2", 2)) {
     return arctangent2(arguments[0], arguments[1]);
   }
+  if (is("hypot", 2)) {
+    return sqrt(Scalar(whole_power(arguments[0], 2) + whole_power(arguments[1], 2)));
+  }
+  if (is("tanh", 1)) {
+    const Scalar growth = exp(Scalar(Scalar(2.0) * arguments[0]));
+    return Scalar(1.0) - Scalar(2.0) / (growth + Scalar(1.0));
+  }
+  if (is("wrap", 1)) {
+    return arctangent2(Scalar(sin(arguments[0])), Scalar(cos(arguments[0])));
+  }
   if (is("stays_within", 3)) {
     return stays_within(arguments[0], arguments[1], arguments[2]);
   }

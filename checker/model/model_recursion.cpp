@@ -86,9 +86,9 @@ Computed stays_within(const Computed& x, const Computed& low, const Computed& hi
 
 /// A certificate's sentences and the signal use these words: they have one meaning. Throws FormulaError.
 void require_free(const std::string& name) {
-  constexpr std::array<std::string_view, 15> kTaken{"pi",   "A",    "phi",  "omega", "sqrt",
-                                                    "exp",  "log",  "sin",  "cos",   "tan",
-                                                    "asin", "acos", "atan", "atan2", "stays_within"};
+  constexpr std::array<std::string_view, 18> kTaken{"pi",   "A",     "phi",          "omega", "sqrt", "exp",
+                                                    "log",  "sin",   "cos",          "tan",   "asin", "acos",
+                                                    "atan", "atan2", "stays_within", "hypot", "tanh", "wrap"};
   if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
     throw FormulaError(name + " has two meanings");
   }

@@ -59,6 +59,8 @@ model-constant-amplitude  its tubes for what is assumed, for two parts of the ra
 From tests/certificates/model-gains.toml and model-gains-unstable.toml, loops of two channels, as they are:
 model-gains       all claims that gains decide
 model-gains-unstable  a loop that is REFUTED
+From tests/certificates/model-gains-one-channel.toml, as it is:
+model-gains-one-channel  a loop whose detector also sees twice the frequency
 From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
@@ -487,6 +489,7 @@ KINDS = {
     "model-constant-amplitude": model_moving,
     "model-gains": lambda certificate: None,
     "model-gains-unstable": lambda certificate: None,
+    "model-gains-one-channel": lambda certificate: None,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
     "model-filter-gaussian": model_gaussian,

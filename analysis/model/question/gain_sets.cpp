@@ -17,9 +17,9 @@ using rigor::Interval;
 
 namespace {
 
-/// For a checker whose bounds are cruder.
-double widened(double bound) {
-  return rigor::mul_up(bound, 1.001);
+/// For a checker whose bounds are cruder, above all of what turns with the signal.
+double widened(const GainBounds& gains, double bound) {
+  return rigor::mul_up(bound, gains.network().has_ripples ? 1.01 : 1.001);
 }
 
 /// Nearly the largest number up to `most` with this property, which smaller ones have; 0 where none was
@@ -27,7 +27,7 @@ double widened(double bound) {
 double largest_with(double most, const std::function<bool(double)>& holds) {
   constexpr int kHalvings = 60;
   constexpr int kSteps = 11;
-  constexpr double kRoom = 0.999;  // for a program whose bounds are cruder
+  constexpr double kRoom = 0.998;  // for a program whose bounds are cruder
   double low = most;
   for (int i = 0; i < kHalvings && !holds(low); ++i) {
     low *= 0.5;
@@ -75,7 +75,7 @@ class GainSets {
 
  private:
   [[nodiscard]] bool is_lock(const std::optional<LoopBounds>& bounds) const {
-    return bounds && widened(widened(bounds->for_ever)) < half_distance_;
+    return bounds && widened(*gains_, widened(*gains_, bounds->for_ever)) < half_distance_;
   }
 
   /// Of starts in the steady state.
@@ -89,8 +89,8 @@ class GainSets {
     const std::optional<LoopBounds> bounds = gains_->bounds(disturbance);
     set.tubes.is_complete = bounds.has_value();
     if (bounds) {
-      set.frequency_error = widened(bounds->for_ever);
-      set.settled_error = widened(bounds->long_run);
+      set.frequency_error = widened(*gains_, bounds->for_ever);
+      set.settled_error = widened(*gains_, bounds->long_run);
     } else {
       set.tubes.reasons.emplace_back("the bounds of the errors do not close: too much noise or slew");
     }
@@ -116,10 +116,10 @@ class GainSets {
     const Interval& bias = gains_->network().bias;
     const double ripple = gains_->network().ripple.back();
     const double largest = rigor::sub_up(set.settled_error, rigor::magnitude(bias));
-    const double residual = widened(rigor::sub_up(largest, ripple));  // the ripple's mean is 0
-    constexpr double kRoom = 1e-13;                                   // for a checker that rounds otherwise
+    const double residual = widened(*gains_, rigor::sub_up(largest, ripple));  // the ripple's mean is 0
+    constexpr double kRoom = 1e-13;  // for a checker that rounds otherwise
     set.bias = bias + Interval::from_bounds(-residual - kRoom, residual + kRoom);
-    set.ripple = 2.0 * widened(largest) + kRoom;
+    set.ripple = 2.0 * widened(*gains_, largest) + kRoom;
   }
 
   /// The largest frequency error at the start, with the other states in the steady state.
@@ -135,7 +135,7 @@ class GainSets {
     };
     set.reach = largest_with(rigor::pi().lower(), [&](double error) { return is_lock(from(error)); });
     if (const auto bounds = from(set.reach); set.reach > 0.0 && bounds) {
-      set.frequency_error = widened(bounds->for_ever);
+      set.frequency_error = widened(*gains_, bounds->for_ever);
     }
   }
 
@@ -153,8 +153,8 @@ class GainSets {
       return gains_->bounds(disturbance);
     };
     if (const auto bounds = from(1.0)) {
-      set.frequency_error = widened(bounds->for_ever);
-      set.settled_error = widened(bounds->long_run);
+      set.frequency_error = widened(*gains_, bounds->for_ever);
+      set.settled_error = widened(*gains_, bounds->long_run);
       return;
     }
     const double share = largest_with(1.0, [&](double each) { return from(each).has_value(); });
@@ -191,7 +191,7 @@ double samples_below(const GainProof& proof, const Interval& target) {
   }
   const std::vector<double>& errors = proof.assumed->from_block;
   for (std::size_t block = 0; block < errors.size(); ++block) {
-    if (rigor::certainly_less(Interval(widened(errors[block])), target)) {
+    if (rigor::certainly_less(Interval(widened(*proof.gains, errors[block])), target)) {
       return static_cast<double>(block * (proof.gains->samples() / proof.gains->blocks()));
     }
   }

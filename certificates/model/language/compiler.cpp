@@ -13,6 +13,7 @@
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/model/language/definition_order.hpp"
 #include "certificates/model/language/vocabulary.hpp"
+#include "certificates/model/language/written_out.hpp"
 
 namespace veritrack::certificates::language {
 
@@ -100,6 +101,11 @@ class Compiler {
     Instruction instruction;
     if (expression.kind == Expression::Kind::call) {
       const std::optional<Function> function = find_function(expression.text);
+      if (const std::size_t allowed = arguments_of_written_out(expression.text); allowed > 0) {
+        throw LanguageError(expression.position,
+                            fmt::format("{} has {} arguments; allowed: {}", expression.text,
+                                        expression.operands.size(), allowed));
+      }
       if (!function) {
         throw LanguageError(expression.position, objection_to_function(expression.text));
       }

@@ -11,6 +11,7 @@
 
 #include "certificates/design/input_error.hpp"
 #include "certificates/model/language/expression.hpp"
+#include "certificates/model/language/written_out.hpp"
 
 namespace veritrack::certificates::language {
 
@@ -246,6 +247,10 @@ struct Action<grammar::call> {
     std::vector<Expression> arguments(std::make_move_iterator(first),
                                       std::make_move_iterator(building.operands.end()));
     building.operands.erase(first, building.operands.end());
+    if (std::optional<Expression> formula = written_out(function, position, arguments)) {
+      building.operands.push_back(*std::move(formula));
+      return;
+    }
     building.push(Expression::Kind::call, position, std::move(function), 0, std::move(arguments));
   }
 };

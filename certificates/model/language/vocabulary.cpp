@@ -8,6 +8,7 @@
 
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/nearest_key.hpp"
+#include "certificates/model/language/written_out.hpp"
 
 namespace veritrack::certificates::language {
 
@@ -30,9 +31,9 @@ constexpr std::array kFunctions{
 };
 
 /// Functions that have a kink or a jump.
-constexpr std::array<std::string_view, 22> kNotSmooth{
-    "abs", "fabs", "min",  "max",   "fmin", "fmax", "floor",    "ceil",      "round", "trunc", "sign",
-    "sgn", "mod",  "fmod", "clamp", "clip", "sat",  "saturate", "heaviside", "if",    "step",  "limit"};
+constexpr std::array<std::string_view, 16> kNotSmooth{
+    "min",   "max",  "fmin", "fmax",     "floor",     "ceil", "round", "trunc",
+    "clamp", "clip", "sat",  "saturate", "heaviside", "if",   "step",  "limit"};
 
 constexpr std::size_t kShownOfFunction = 40;
 
@@ -46,6 +47,19 @@ std::optional<Function> find_function(std::string_view name) {
 
 std::string objection_to_function(std::string_view name) {
   const std::string shown = printable(name, kShownOfFunction);
+  if (name == "mod" || name == "fmod" || name == "remainder") {
+    return fmt::format(
+        "{} is not smooth; allowed here: wrap(x), which brings an angle between -pi and pi, or a state "
+        "that is named in angles",
+        shown);
+  }
+  if (name == "abs" || name == "fabs") {
+    return fmt::format("{} is not smooth; allowed here: sqrt(x^2), where x stays away from 0 in lock", shown);
+  }
+  if (name == "sign" || name == "sgn") {
+    return fmt::format("{} is not smooth; allowed here: x/sqrt(x^2), where x stays away from 0 in lock",
+                       shown);
+  }
   if (std::find(kNotSmooth.begin(), kNotSmooth.end(), name) != kNotSmooth.end()) {
     return fmt::format(
         "{} is not smooth; allowed here: stays_within(x, low, high), which is x, if {} never acts in lock "
@@ -61,6 +75,7 @@ std::string objection_to_function(std::string_view name) {
   for (const Function& function : kFunctions) {
     names.emplace_back(function.name);
   }
+  names.insert(names.end(), written_out_functions().begin(), written_out_functions().end());
   return fmt::format("unknown function {}; nearest: {}; allowed: {}", shown, nearest_key(name, names),
                      fmt::join(names, ", "));
 }
@@ -78,7 +93,9 @@ std::string_view reserved_meaning(std::string_view name) {
   if (name == "A") {
     return "the amplitude of the tone";
   }
-  return find_function(name) ? "a function" : "";
+  const std::vector<std::string>& others = written_out_functions();
+  return find_function(name) || std::find(others.begin(), others.end(), name) != others.end() ? "a function"
+                                                                                              : "";
 }
 
 }  // namespace veritrack::certificates::language

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/model/gain_examples.hpp"
@@ -96,11 +97,25 @@ TEST_CASE("other questions are left to tubes") {
   question.allows_gains = true;
   question.whole_band = Interval::from_bounds(0.0, 4.0);
   CHECK_FALSE(prove_by_gains(question).has_value());
-  const test::Example one(test::phase_locked_loop());
-  SetQuestion other{.tone = test::tone_of(one.tracker), .tracker = one.model};
-  other.whole_band = Interval::from_bounds(0.2, 0.3);
-  other.allows_gains = true;
-  CHECK_FALSE(prove_by_gains(other).has_value());
+}
+
+TEST_CASE("a fast loop of one channel is far from its linear recursion, a slow one is near") {
+  const rigor::UpwardRounding upward;
+  for (const auto& [bandwidth, is_near] : {std::pair(0.02, false), std::pair(0.001, true)}) {
+    const test::Example loop(test::phase_locked_loop(bandwidth));
+    SetQuestion question{.tone = test::tone_of(loop.tracker), .tracker = loop.model};
+    question.whole_band = Interval::from_bounds(0.2, 0.3);
+    question.allows_gains = true;
+    question.noise = 0.01;
+    const auto sets = prove_by_gains(question);
+    REQUIRE(sets.has_value());
+    CHECK(sets->assumed->is_proved());
+    CHECK_FALSE(sets->gains->radius.has_value());
+    CHECK(is_near_linear(*sets) == is_near);
+    CHECK(sets->starts.ripple > 0.0);
+    question.whole_band = Interval::from_bounds(-0.3, 0.3);
+    CHECK_FALSE(prove_by_gains(question).has_value());
+  }
 }
 
 }  // namespace

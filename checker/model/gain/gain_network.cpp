@@ -109,7 +109,9 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
                          const std::vector<SteadyState>& steady) {
   const std::size_t n = recursion.states();
   if (recursion.filtered() > 0 || steady.size() != n) {
-    throw NotCovered("gains are for loops with one steady state for each state");
+    throw NotCovered(recursion.samples() == 2
+                         ? "gains are for loops of two channels, with one steady state for each state"
+                         : "gains are for loops with one steady state for each state");
   }
   if (recursion.samples() == 1 && design.amplitude_varies) {
     throw NotCovered("in one channel, gains are for one amplitude at all samples");

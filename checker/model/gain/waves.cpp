@@ -127,8 +127,8 @@ Waves product(const Waves& x, const Waves& y) {
                   exact_sum(exact_product(gamma[0], delta[1]), exact_product(gamma[1], delta[0]))});
         continue;
       }
-      const auto half_product = [&](std::size_t i, std::size_t j) {
-        return exact_product(gamma[i], delta[j], 1);
+      const auto half_product = [&left = gamma, &right = delta](std::size_t i, std::size_t j) {
+        return exact_product(left[i], right[j], 1);
       };
       add_wave(result, product_of(wave, other, 1),
                {exact_sum(half_product(0, 0), -half_product(1, 1)),

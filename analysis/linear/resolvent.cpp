@@ -78,7 +78,9 @@ std::optional<TurningResponse> turning_response(const std::vector<Row>& a, const
                                                 const std::vector<Row>& forms, const Interval& band,
                                                 int parts) {
   const std::size_t n = a.size();
-  TurningResponse response{std::vector<double>(n, 0.0), std::vector<double>(forms.size(), 0.0)};
+  TurningResponse response{std::vector<double>(n, 0.0), std::vector<double>(forms.size(), 0.0), 0.0,
+                           std::vector<double>(n, 0.0)};
+  const Complex one{Interval(1.0), Interval(0.0)};
   for (int part = 0; part < parts; ++part) {
     const Interval share = Interval::from_bounds(part, part + 1) / Interval(static_cast<double>(parts));
     const Interval omega = Interval(band.lower()) + share * (Interval(band.upper()) - Interval(band.lower()));
@@ -94,11 +96,20 @@ std::optional<TurningResponse> turning_response(const std::vector<Row>& a, const
       g[i] = Complex{real[i], imaginary[i]} * turn;
     }
     const std::vector<Complex> pi = solution(std::move(m), std::move(g));
+    response.direct = std::max(response.direct, size_up(turn / (turn - one)));
     for (std::size_t j = 0; j < n; ++j) {
+      Complex rest = Complex{} - pi[j];  // (A - 1) Pi
+      for (std::size_t i = 0; i < n; ++i) {
+        rest = rest + Complex{a[j][i], Interval(0.0)} * pi[i];
+      }
+      response.rest[j] = std::max(response.rest[j], size_up(rest / (turn - one)));
       response.states[j] = std::max(response.states[j], size_up(pi[j]));
-      if (!std::isfinite(response.states[j])) {
+      if (!std::isfinite(response.states[j]) || !std::isfinite(response.rest[j])) {
         return std::nullopt;
       }
+    }
+    if (!std::isfinite(response.direct)) {
+      return std::nullopt;
     }
     for (std::size_t f = 0; f < forms.size(); ++f) {
       Complex sum;

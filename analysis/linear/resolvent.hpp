@@ -9,10 +9,12 @@
 
 namespace veritrack::linear {
 
-/// Upper bounds over a band.
+/// Upper bounds over a band. Pi = direct g + rest, with direct = e^(i t omega)/(e^(i t omega) - 1).
 struct TurningResponse {
   std::vector<double> states;  ///< |Pi_j|
   std::vector<double> forms;   ///< |c Pi|
+  double direct = 0.0;         ///< |direct|
+  std::vector<double> rest;    ///< |rest_j|
 };
 
 /// g = real + i imaginary; `band`, rad/sample, is cut into `parts` of equal width. Empty where e^(i t omega)

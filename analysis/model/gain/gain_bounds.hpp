@@ -28,6 +28,8 @@ struct LoopBounds {
   double for_ever = 0.0;
   std::vector<double> from_block;  ///< from the first sample of each block on
   double long_run = 0.0;
+  double mean =
+      0.0;  ///< of the error without the bias, over the phase, in the long run at a constant frequency
   ErrorBudget budget;  ///< of the long run
 };
 

@@ -214,6 +214,10 @@ class Assembly {
           change.inputs[component] = sum;
         }
       }
+      FrameLine angle;
+      angle.states = phase;
+      network_.turning.push_back({0.0, network_.forms.size()});
+      add_form(angle);
       changes_.push_back(network_.forms.size());
       add_form(change);
       // Residuals of the steady state change it, too.
@@ -251,10 +255,12 @@ class Assembly {
             rigor::add_up(network_.ripple[f], rigor::mul_up(ripple.size, response->forms[f]));
       }
       for (std::size_t j = 0; j < states_; ++j) {
-        drifts[j].push_back(rigor::mul_up(ripple.size, response->states[j]));
-        network_.ripple_at_start[j] = rigor::add_up(network_.ripple_at_start[j], drifts[j].back());
+        drifts[j].push_back(rigor::mul_up(ripple.size, response->rest[j]));
+        network_.ripple_at_start[j] =
+            rigor::add_up(network_.ripple_at_start[j], rigor::mul_up(ripple.size, response->states[j]));
       }
-      remove_column(ripple.first);
+      network_.turning[r].error = rigor::mul_up(ripple.size, response->forms.back());
+      move_column(ripple.first, rigor::mul_up(ripple.size, response->direct), changes_[r]);
     }
     for (std::size_t j = 0; j < states_; ++j) {
       linear::GainInput unit{{linear::Row(states_, Interval(0.0))}};
@@ -273,13 +279,20 @@ class Assembly {
     }
   }
 
-  /// The input stays, for forms that it is part of within the sample.
-  void remove_column(int first) {
+  /// The input stays, for forms that it is part of within the sample; its column is that of its drift.
+  void move_column(int first, double size, std::size_t change) {
     for (std::size_t l = 0; l < frame_.inputs().size(); ++l) {
-      if (frame_.inputs()[l].first == first) {
-        for (linear::Row& column : network_.columns[l].columns) {
-          column.assign(states_, Interval(0.0));
-        }
+      if (frame_.inputs()[l].first != first) {
+        continue;
+      }
+      network_.columns.push_back(network_.columns[l]);
+      network_.inputs.push_back(
+          {NetworkInput::Cause::remainder, "what turns with the signal",
+           [size, change](double /*noise*/, double /*slew*/, const std::vector<double>& bounds) {
+             return rigor::mul_up(size, std::min(2.0, bounds[change]));
+           }});
+      for (linear::Row& column : network_.columns[l].columns) {
+        column.assign(states_, Interval(0.0));
       }
     }
   }

@@ -47,6 +47,12 @@ struct LoopNetwork {
   /// One channel: what turns with the signal adds to each form, and to each state at the start.
   std::vector<double> ripple;
   std::vector<double> ripple_at_start;
+  /// The same for the frequency error, one by one, with the form that is the error of its angle.
+  struct TurningPart {
+    double error = 0.0;
+    std::size_t angle = 0;
+  };
+  std::vector<TurningPart> turning;
   bool has_ripples = false;  ///< then bounds are for a constant frequency
   /// The one state of which the frequency error is a multiple, and the factor; or none.
   std::optional<std::pair<std::size_t, double>> frequency_state;

@@ -110,16 +110,16 @@ class GainSets {
 
   /// Without noise the error in the long run is that of the steady state, up to its residual.
   void add_bias(ProvedSet& set) const {
-    if (!set.is_proved()) {
+    const std::optional<LoopBounds> bounds = gains_->bounds({});
+    if (!bounds) {
       return;
     }
-    const Interval& bias = gains_->network().bias;
-    const double ripple = gains_->network().ripple.back();
-    const double largest = rigor::sub_up(set.settled_error, rigor::magnitude(bias));
-    const double residual = widened(*gains_, rigor::sub_up(largest, ripple));  // the ripple's mean is 0
     constexpr double kRoom = 1e-13;  // for a checker that rounds otherwise
-    set.bias = bias + Interval::from_bounds(-residual - kRoom, residual + kRoom);
-    set.ripple = 2.0 * widened(*gains_, largest) + kRoom;
+    const Interval& bias = gains_->network().bias;
+    const double mean = rigor::add_up(widened(*gains_, bounds->mean), kRoom);
+    set.bias = bias + Interval::from_bounds(-mean, mean);
+    const double largest = rigor::sub_up(bounds->long_run, rigor::magnitude(bias));
+    set.ripple = rigor::add_up(2.0 * widened(*gains_, largest), kRoom);
   }
 
   /// The largest frequency error at the start, with the other states in the steady state.

@@ -53,6 +53,9 @@ struct GainRipple {
   std::size_t change_form = 0;  ///< by which this angle changes at a sample
   /// At least |c Pi| size of each form, and |Pi| size of each state.
   std::vector<Ball> of_form, of_state;
+  /// With Pi = kappa g + rho: at least |kappa| size, and |rho| size of each state.
+  Ball direct;
+  std::vector<Ball> rest_of_state;
 };
 
 struct GainNetwork {

@@ -54,16 +54,37 @@ Ball length_of_product(const std::vector<Ball>& row, ComplexMatrix& x) {
   return result.upper();
 }
 
-/// The largest |row Pi|, by row, where (e^(jt omega) - A) Pi = g e^(jt omega), over the band.
-std::vector<Ball> largest_responses(const GainNetwork& network, const GainRipple& ripple,
-                                    const std::vector<std::vector<Ball>>& rows, const Ball& lowest,
-                                    const Ball& highest) {
+/// The largest over the band, where (e - A) Pi = g e with e = e^(jt omega), and Pi = kappa g + rho.
+struct Responses {
+  std::vector<Ball> of_row;  ///< |row Pi|
+  std::vector<Ball> rest;    ///< |rho_j|
+  Ball direct;               ///< |kappa|
+};
+
+/// A - I, row by row: rho = (A - I) Pi/(e - 1), kappa = e/(e - 1).
+std::vector<std::vector<Ball>> less_identity(std::vector<std::vector<Ball>> matrix) {
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    matrix[i][i] = matrix[i][i] - one;
+  }
+  return matrix;
+}
+
+Responses largest_responses(const GainNetwork& network, const GainRipple& ripple,
+                            const std::vector<std::vector<Ball>>& rows, const Ball& lowest,
+                            const Ball& highest) {
   const std::size_t n = network.states();
   const Ball turns(static_cast<double>(ripple.turns));
   const std::vector<InputFactor>& column = network.inputs[ripple.input].column;
-  std::vector<Ball> largest(rows.size());
+  const std::vector<std::vector<Ball>> changes = less_identity(network.matrix);
+  Responses largest{std::vector<Ball>(rows.size()), std::vector<Ball>(n), zero};
   const auto border = [&](long part) {
     return lowest + (highest - lowest) * Ball(static_cast<double>(part)) / Ball(double{kBandParts});
+  };
+  const auto raise = [](Ball& most, const Ball& size) {
+    most = max(most, size);
+    if (!most.finite()) {
+      throw NotCovered("the response to a ripple is not known");
+    }
   };
   for (long part = 0; part < kBandParts; ++part) {
     const Ball angle = turns * Ball::hull(border(part), border(part + 1));
@@ -82,11 +103,13 @@ std::vector<Ball> largest_responses(const GainNetwork& network, const GainRipple
       right.set(i, 0, b.first * real + b.second * imaginary, b.first * imaginary - b.second * real);
     }
     response.solve(matrix, right);
+    const Ball direct = one / sqrt(square(real - one) + square(imaginary));  // |e| = 1
+    raise(largest.direct, direct.upper());
     for (std::size_t row = 0; row < rows.size(); ++row) {
-      largest[row] = max(largest[row], length_of_product(rows[row], response));
-      if (!largest[row].finite()) {
-        throw NotCovered("the response to a ripple is not known");
-      }
+      raise(largest.of_row[row], length_of_product(rows[row], response));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      raise(largest.rest[i], (length_of_product(changes[i], response) * direct).upper());
     }
   }
   return largest;
@@ -115,7 +138,18 @@ GainForm change_of(const GainNetwork& network, const std::vector<Ball>& angle) {
   return form;
 }
 
-/// What changes of the angles of ripples do to this state.
+/// What changes of its angle do in the direction of a ripple.
+GainInput direct_drift_of(const GainNetwork& network, const GainRipple& ripple) {
+  GainInput drift;
+  drift.column = network.inputs[ripple.input].column;
+  drift.about = {ripple.change_form};
+  drift.at_bounds = [size = ripple.direct](const std::vector<Ball>& bounds) {
+    return size * min(two, bounds.at(0));
+  };
+  return drift;
+}
+
+/// What else changes of the angles of ripples do to this state.
 GainInput drift_of(const GainNetwork& network, std::size_t state) {
   GainInput drift;
   drift.column.assign(network.states(), {zero, zero});
@@ -123,7 +157,7 @@ GainInput drift_of(const GainNetwork& network, std::size_t state) {
   std::vector<Ball> sizes;
   for (const GainRipple& ripple : network.ripples) {
     drift.about.push_back(ripple.change_form);
-    sizes.push_back(ripple.of_state[state]);
+    sizes.push_back(ripple.rest_of_state[state]);
   }
   drift.at_bounds = [sizes](const std::vector<Ball>& bounds) {
     Ball sum;
@@ -167,11 +201,19 @@ void add_ripples(const std::vector<FrameInput>& inputs, const Ball& lowest, cons
     rows.back()[i] = one;
   }
   for (GainRipple& ripple : network.ripples) {
-    for (const Ball& each : largest_responses(network, ripple, rows, lowest, highest)) {
+    const Responses largest = largest_responses(network, ripple, rows, lowest, highest);
+    for (const Ball& each : largest.of_row) {
       std::vector<Ball>& list =
           ripple.of_form.size() < network.forms.size() ? ripple.of_form : ripple.of_state;
       list.push_back((each * ripple.size).upper());
     }
+    for (const Ball& each : largest.rest) {
+      ripple.rest_of_state.push_back((each * ripple.size).upper());
+    }
+    ripple.direct = (largest.direct * ripple.size).upper();
+  }
+  for (const GainRipple& ripple : network.ripples) {
+    network.inputs.push_back(direct_drift_of(network, ripple));
   }
   for (std::size_t i = 0; i < n && !network.ripples.empty(); ++i) {
     network.inputs.push_back(drift_of(network, i));

@@ -32,13 +32,18 @@ TEST_CASE("random recursions: the response by Eigen, at frequencies of the band"
     const double low = random.uniform(0.1, 1.0);
     const double high = low + 0.2;
     double largest_form = 0.0;
+    double largest_direct = 0.0;
     Eigen::VectorXd largest = Eigen::VectorXd::Zero(n);
+    Eigen::VectorXd largest_rest = largest;
     for (int k = 0; k <= 50; ++k) {
       const std::complex<double> turn = std::polar(1.0, turns * (low + k * (high - low) / 50));
       const Eigen::MatrixXcd shifted = turn * Eigen::MatrixXcd::Identity(n, n) - matrix;
       const Eigen::VectorXcd pi = shifted.partialPivLu().solve(g * turn);
       largest = largest.cwiseMax(pi.cwiseAbs());
       largest_form = std::max(largest_form, std::abs((form * pi)(0)));
+      const std::complex<double> direct = turn / (turn - 1.0);
+      largest_direct = std::max(largest_direct, std::abs(direct));
+      largest_rest = largest_rest.cwiseMax((pi - direct * g).cwiseAbs());
     }
     const rigor::UpwardRounding upward;
     std::vector<Row> a;
@@ -61,7 +66,11 @@ TEST_CASE("random recursions: the response by Eigen, at frequencies of the band"
       const double bound = response->states[static_cast<std::size_t>(i)];
       CHECK(bound >= largest(i) * (1.0 - 1e-12));
       CHECK(bound <= largest(i) * 1.05);
+      CHECK(response->rest[static_cast<std::size_t>(i)] >= largest_rest(i) * (1.0 - 1e-12));
+      CHECK(response->rest[static_cast<std::size_t>(i)] <= largest_rest(i) * 1.2 + 0.05);
     }
+    CHECK(response->direct >= largest_direct * (1.0 - 1e-12));
+    CHECK(response->direct <= largest_direct * 1.05);
     CHECK(response->forms[0] >= largest_form * (1.0 - 1e-12));
     CHECK(response->forms[0] <= largest_form * 1.02 + 0.05);
   }

@@ -1,6 +1,5 @@
 #include "analysis/model/gain/loop_network.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <span>

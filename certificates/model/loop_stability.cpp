@@ -22,7 +22,8 @@ std::optional<double> radius_with(ModelTables tables, std::size_t parameter, dou
   const model::TrackedTone tone = proposed_tone(model, tables.assume);
   const rigor::Interval band = band_of(tables.assume);
   const double omega = rigor::midpoint(band);
-  const auto steady = model::proposed_steady_state(proved_model(model, tables.assume), tone.start, omega, omega + 1e-3);
+  const auto steady =
+      model::proposed_steady_state(proved_model(model, tables.assume), tone.start, omega, omega + 1e-3);
   if (!steady) {
     return std::nullopt;
   }

@@ -58,8 +58,8 @@ Eigen::VectorXd size_of(const Eigen::MatrixXd& states, const std::vector<bool>& 
   return size;
 }
 
-/// The effect on each state of a sample that is wrong by the whole amplitude, within as many steps as there are
-/// states: a state that rests at 0 has no other size.
+/// The effect on each state of a sample that is wrong by the whole amplitude, within as many steps as there
+/// are states: a state that rests at 0 has no other size.
 Eigen::VectorXd response_of(const TrackedTone& tone, const PeriodicRun& run) {
   const Eigen::Index n = run.states().rows();
   const Eigen::MatrixXd slope = tone.step.jacobian(run.states().col(0), run.samples().col(0));

@@ -110,7 +110,7 @@ std::size_t settled_from(const std::vector<double>& share) {
 
 /// "82.6 samples (6.6 ms)".
 std::string duration(double samples, const std::optional<Number>& rate) {
-  const std::string text = fmt::format("{:.4g} samples", samples);
+  std::string text = fmt::format("{:.4g} samples", samples);
   if (!rate) {
     return text;
   }

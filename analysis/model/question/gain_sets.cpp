@@ -67,7 +67,7 @@ class GainSets {
       add_reach(*sets.reach, assumed);
     }
     if (question_->is_thorough) {
-      sets.linear = LinearWorstCase{question_->whole_band.lower(), rigor::magnitude(gains_->network().bias),
+      sets.linear = LinearWorstCase{question_->whole_band.lower(), gains_->linear_error(0.0, 0.0),
                                     gains_->linear_error(question_->noise, question_->slew)};
     }
     return sets;
@@ -192,7 +192,8 @@ double samples_below(const GainProof& proof, const Interval& target) {
   const std::vector<double>& errors = proof.assumed->from_block;
   for (std::size_t block = 0; block < errors.size(); ++block) {
     if (rigor::certainly_less(Interval(widened(*proof.gains, errors[block])), target)) {
-      return static_cast<double>(block * (proof.gains->samples() / proof.gains->blocks()));
+      const std::size_t length = proof.gains->samples() / proof.gains->blocks();
+      return static_cast<double>(block * length);
     }
   }
   return INFINITY;

@@ -131,6 +131,7 @@ std::optional<Table> GainKernels::starts(const std::vector<Ball>& start) const {
   const std::size_t n = columns_.size();
   Table result(forms_, std::vector<double>(blocks_ + 1, 0.0));
   std::vector<double> size;
+  size.reserve(start.size());
   for (const Ball& each : start) {
     size.push_back(upper(each));
   }

@@ -29,7 +29,7 @@ Ball noise_in_wave(const Ball& least, const Ball& largest, int s, int m, const B
   // The difference of powers grows with the amplitude for s > 0 and falls for s < 0.
   const Ball& worst = s >= 0 ? largest : least;
   const Ball of_amplitude = power(worst, s);
-  const Ball above = abs(power(worst + noise, s) - of_amplitude);
+  Ball above = abs(power(worst + noise, s) - of_amplitude);
   if (s == std::abs(m)) {
     return above;
   }

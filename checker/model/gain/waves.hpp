@@ -25,7 +25,8 @@ struct Wave {
   std::vector<std::pair<int, int>>
       angles;     ///< the numbers of the values L, in order, and times that are not 0
   int noise = 0;  ///< in one channel
-  auto operator<=>(const Wave&) const = default;
+  // clang-tidy 14 takes the 0 of a comparison for a null pointer.
+  auto operator<=>(const Wave&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The sum of Re(conj(gamma) M), with gamma = (real, imaginary) in units of 2^-16, and no zeros. Of a wave

@@ -48,4 +48,36 @@ inline const certificates::Certificate& loop_certificate() {
   return certificate;
 }
 
+/// A loop of two channels, which is certified by gains. `gains`: "kp = 0.06, ki = 0.001" or others.
+inline certificates::Certificate two_channel_certificate(const std::string& gains = "kp = 0.06, ki = 0.001") {
+  const std::string text = R"(name = "a loop"
+tracker = "model"
+
+[model]
+samples = ['i', 'q']
+parameters = { )" + gains +
+                           R"( }
+states = ['theta', 'w']
+angles = ['theta']
+step = '''
+e      = q*cos(theta) - i*sin(theta)
+theta' = theta + w + kp*e
+w'     = w + ki*e
+'''
+frequency = 'w'
+start = { theta = 'omega', w = 'omega' }
+
+[assume]
+amplitude = 1
+sample_rate = 1000
+frequency = [-0.5, 0.5]
+noise = 0.1
+slew = { hz_per_second = 0.1 }
+
+[require]
+frequency_error_below = 0.01
+)";
+  return certificates::certify(loop_design(text), "loop.toml", text, {}, certificates::Extent::everything);
+}
+
 }  // namespace veritrack::test

@@ -1,0 +1,25 @@
+#include "certificates/model/loop_stability.hpp"
+
+#include <doctest/doctest.h>
+
+#include "analysis/rigor/rounding.hpp"
+#include "tests/certificates/model/model_certificates.hpp"
+
+namespace veritrack::certificates {
+namespace {
+
+TEST_CASE("each parameter alone: where the loop z^2 - (2 - kp) z + 1 - kp + ki becomes stable") {
+  const Certificate certificate = test::two_channel_certificate("kp = 2.1, ki = 0.03");
+  const rigor::UpwardRounding upward;
+  const auto limits = stability_limits(model_tables(certificate.design));
+  REQUIRE(limits.size() == 2);
+  CHECK(limits[0].parameter == "kp");
+  CHECK(limits[0].is_stable_below);
+  CHECK(limits[0].limit == doctest::Approx(2.015).epsilon(1e-6));
+  CHECK(limits[1].parameter == "ki");
+  CHECK_FALSE(limits[1].is_stable_below);
+  CHECK(limits[1].limit == doctest::Approx(0.2).epsilon(1e-6));
+}
+
+}  // namespace
+}  // namespace veritrack::certificates

@@ -1,0 +1,55 @@
+#include "certificates/model/markdown_model_gains.hpp"
+
+#include <doctest/doctest.h>
+
+#include <regex>
+#include <string>
+
+#include "certificates/model/markdown_model.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "tests/certificates/model/model_certificates.hpp"
+
+namespace veritrack::certificates {
+namespace {
+
+TEST_CASE("a loop that is certified by gains: what each cause contributes, and an attack that comes near") {
+  const Certificate certificate = test::two_channel_certificate();
+  REQUIRE(model_sets(certificate).gains.has_value());
+  const std::string text = model_sections(certificate, {});
+  std::smatch found;
+  REQUIRE(
+      std::regex_search(text, found, std::regex("[|] noise of at most 0[.]1 [|] ([0-9.e-]+) rad/sample")));
+  const double noise = std::stod(found[1]);
+  REQUIRE(std::regex_search(
+      text, found, std::regex("[|] slew of at most 0[.]1 Hz per second [|] ([0-9.e-]+) rad/sample")));
+  const double slew = std::stod(found[1]);
+  REQUIRE(std::regex_search(text, found, std::regex("[|] together [|] ([0-9.e-]+) rad/sample")));
+  CHECK(noise + slew <= 1.001 * std::stod(found[1]));
+  CHECK(noise + slew >= 0.9 * std::stod(found[1]));
+  REQUIRE(std::regex_search(text, found, std::regex(": ([0-9.]+) of the certified bound in the long run")));
+  CHECK(std::stod(found[1]) <= 1.0);
+  CHECK(std::stod(found[1]) > 0.8);
+  CHECK(text.find("| `theta` | `phi + omega` |") != std::string::npos);
+  CHECK(text.find("| `w` | `omega` |") != std::string::npos);
+  CHECK(text.find("damping 0.949") != std::string::npos);  // kp/(2 sqrt(ki)), but for the sampling
+  CHECK(text.find("nan") == std::string::npos);
+  CHECK(text.find("tube") == std::string::npos);
+}
+
+TEST_CASE("an unstable loop is refuted, with what would make it stable") {
+  const Certificate certificate = test::two_channel_certificate("kp = 2.1, ki = 0.03");
+  const std::string text = model_sections(certificate, {});
+  CHECK(text.find("This loop is unstable") != std::string::npos);
+  // 2 kp - ki < 4
+  CHECK(text.find("| `kp` | 2.1 | below 2.015 |") != std::string::npos);
+  const auto answers = model_answers(certificate);
+  REQUIRE(answers.size() == 1);
+  CHECK(answers.front()->id == "model/stability");
+  CHECK(answers.front()->verdict == rigor::Verdict::refuted);
+  for (const Claim& claim : certificate.claims) {
+    CHECK(claim.verdict != rigor::Verdict::proved);
+  }
+}
+
+}  // namespace
+}  // namespace veritrack::certificates

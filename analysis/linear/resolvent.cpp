@@ -39,17 +39,21 @@ double size_up(const Complex& a) {
   return rigor::is_finite(size) ? sqrt(size).upper() : INFINITY;
 }
 
-/// The solution of M x = b by elimination, with the largest pivots.
+/// The solution of M x = b by elimination. Rows stay in their order where the pivot is not small: with states
+/// of different units others would cancel.
 std::vector<Complex> solution(std::vector<std::vector<Complex>> m, std::vector<Complex> b) {
+  constexpr double kSmall = 1e-3;  // squared, of the largest in the column
   const std::size_t n = b.size();
   for (std::size_t k = 0; k < n; ++k) {
+    const double first = squared_size(m[k][k]).lower();
     std::size_t best = k;
-    double largest = -1.0;
-    for (std::size_t i = k; i < n; ++i) {
+    double largest = first;
+    for (std::size_t i = k + 1; i < n; ++i) {
       const double size = squared_size(m[i][k]).lower();
       best = size > largest ? i : best;
       largest = std::max(largest, size);
     }
+    best = first > kSmall * largest ? k : best;
     std::swap(m[k], m[best]);
     std::swap(b[k], b[best]);
     for (std::size_t i = k + 1; i < n; ++i) {

@@ -31,7 +31,7 @@ TEST_CASE("a loop that is certified by gains: what each cause contributes, and a
   CHECK(std::stod(found[1]) > 0.8);
   CHECK(text.find("| `theta` | `phi + omega` |") != std::string::npos);
   CHECK(text.find("| `w` | `omega` |") != std::string::npos);
-  CHECK(text.find("damping 0.949") != std::string::npos);  // kp/(2 sqrt(ki)), but for the sampling
+  CHECK(text.find("damping 0.947") != std::string::npos);  // of ln z, z = 0.97 +- 0.01i
   CHECK(text.find("nan") == std::string::npos);
   CHECK(text.find("tube") == std::string::npos);
 }

@@ -161,8 +161,9 @@ std::string linear_table(const model::GainProof& proof, const ModelAssumptions& 
 /// Of an unstable loop: what would make it stable.
 std::string stability_text(const Certificate& certificate) {
   std::string text =
-      "This loop is unstable: errors grow, however small they are at first, and no bound is valid for "
-      "ever.\n\n";
+      "The steady state below is unstable: errors about it grow, however small they are at first. No stable "
+      "one was "
+      "found from `start`, half a turn further, or by simulation.\n\n";
   std::vector<std::vector<std::string>> rows;
   for (const StabilityLimit& limit : stability_limits(model_tables(certificate.design))) {
     rows.push_back({"`" + limit.parameter + "`", fmt::format("{:.6g}", limit.value),

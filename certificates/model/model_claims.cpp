@@ -207,18 +207,18 @@ class ModelClaims {
       const std::string decay = rigor::to_decimal(radius.upper, 8, rigor::Direction::up);
       claim.values = {{"decay", decay}};
       claim.statement += fmt::format(
-          ", the loop is stable: to first order, errors about the steady state of the certificate shrink in "
-          "the "
-          "long run by a factor of at most {} each sample",
+          ", the steady state of the certificate is stable: to first order, errors about it shrink in the "
+          "long run by "
+          "a factor of at most {} each sample",
           decay);
     } else if (radius.lower > 1.0) {
       const std::string growth = below(radius.lower);
       claim.values = {{"growth", growth}};
       claim.verdict = Verdict::refuted;
       claim.statement += fmt::format(
-          ", the loop is stable: to first order, no error about the steady state of the certificate grows by "
-          "a "
-          "factor of {} or more each sample",
+          ", the steady state of the certificate is stable: to first order, no error about it grows by a "
+          "factor of {} "
+          "or more each sample",
           growth);
     } else {
       return;

@@ -208,12 +208,17 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   question.deadline = deadline;
   ModelSets sets;
   sets.bounds_covariance = question.tone.filter != nullptr;
-  std::optional<model::ProvedSets> by_gains = model::prove_by_gains(question);
+  std::string no_gains;
+  std::optional<model::ProvedSets> by_gains = model::prove_by_gains(question, &no_gains);
   if (by_gains && (model.samples.size() > 1 || model::is_near_linear(*by_gains))) {
     static_cast<model::ProvedSets&>(sets) = *std::move(by_gains);
     return sets;
   }
   sets.objection = objection_to(model, question.band, sets.bounds_covariance);
+  if (!sets.objection.empty() && question.whole_band.lower() < 0.0) {
+    sets.objection =
+        "frequencies below 0 are certified by gains only (docs/model.md), and this loop is not: " + no_gains;
+  }
   if (!sets.objection.empty()) {
     return sets;
   }

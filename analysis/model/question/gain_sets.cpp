@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <numbers>
+#include <string>
 #include <utility>
 
 #include "analysis/model/gain/frame_value.hpp"
@@ -210,40 +213,116 @@ bool is_near_linear(const ProvedSets& by_gains) {
          proof.assumed->long_run <= kNear * proof.gains->linear_error(assumed.noise, assumed.slew);
 }
 
-std::optional<ProvedSets> prove_by_gains(const SetQuestion& question) {
+namespace {
+
+/// States near which a steady state may be: that of the design, the same with every angle half a turn further
+/// (a detector that multiplies is at rest there, too), and one to which a simulation comes.
+std::vector<StartState> places_to_look(const SetQuestion& question) {
+  constexpr int kSamples = 20'000;
+  const std::vector<bool>& is_angle = question.tracker.recursion->is_angle;
+  const TrackedTone& tone = question.tone;
+  const auto turned = [start = tone.start, is_angle](double omega) {
+    std::vector<double> state = start(omega);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      state[i] += is_angle[i] ? std::numbers::pi : 0.0;
+    }
+    return state;
+  };
+  const auto simulated = [&tone, is_angle](double omega) {
+    const rigor::NearestRounding nearest;
+    const std::vector<double> start = tone.start(omega);
+    Eigen::VectorXd state =
+        Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()));
+    for (int k = 1; k <= kSamples; ++k) {
+      const double phase = std::remainder(k * omega, 2.0 * std::numbers::pi);
+      state = tone.step.next(state, samples_of(tone.signal, tone.amplitude, phase));
+    }
+    std::vector<double> found(state.begin(), state.end());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      found[i] = is_angle[i] ? std::remainder(found[i] - kSamples * omega, 2.0 * std::numbers::pi) : found[i];
+    }
+    return found;
+  };
+  return {tone.start, turned, simulated};
+}
+
+/// The network about a steady state.
+struct Found {
+  std::vector<SteadyValue> steady;
+  LoopNetwork network;
+};
+
+/// The first steady state about which errors decay, or else the first of all. Throws NoFrame.
+std::optional<Found> find_loop(const SetQuestion& question) {
+  const Interval& band = question.whole_band;
+  // At one frequency, a little more shows how the steady state depends on it.
+  const double width = std::max(band.upper() - band.lower(), 1e-3);
+  std::optional<Found> first;
+  std::string objection;
+  for (const StartState& start : places_to_look(question)) {
+    try {
+      const auto steady = proposed_steady_state(question.tracker, start, band.lower(), band.lower() + width);
+      if (!steady) {
+        continue;
+      }
+      Found found{*steady, loop_network(question.tracker, *steady, band)};
+      if (linear::proposed_horizon(found.network.a, 1, 0.5, SIZE_MAX)) {
+        return found;
+      }
+      if (!first) {
+        first = std::move(found);
+      }
+    } catch (const NoFrame& reason) {
+      objection = objection.empty() ? reason.what() : objection;
+    }
+  }
+  if (!first && !objection.empty()) {
+    throw NoFrame(objection);
+  }
+  return first;
+}
+
+}  // namespace
+
+std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::string* reason) {
   constexpr std::size_t kBlocks = 64;
   constexpr double kTail = 1e-8;
   constexpr std::size_t kMostSamples = 1U << 20U;
   const Interval& band = question.whole_band;
-  constexpr double kRoundedPi = 3.142;  // somebody may write pi with a few digits
   // One channel does not tell a frequency from its negative.
   const bool is_one = question.tracker.recursion->samples == 1;
-  if (!question.allows_gains || (is_one && !(band.lower() > 0.0)) || question.tracker.filter != nullptr ||
-      !(std::max(band.upper(), -band.lower()) <= kRoundedPi)) {
+  const auto nothing = [&](const std::string& why) -> std::optional<ProvedSets> {
+    if (reason != nullptr) {
+      *reason = why;
+    }
     return std::nullopt;
+  };
+  if (!question.allows_gains || question.tracker.filter != nullptr) {
+    return nothing("it needs a tone alone, bounded noise, no start_exactly and no filter");
   }
-  // At one frequency, a little more shows how the steady state depends on it.
-  const double width = std::max(band.upper() - band.lower(), 1e-3);
+  if ((is_one && !(band.lower() > 0.0)) || !(std::max(band.upper(), -band.lower()) <= rigor::pi().upper())) {
+    return nothing("the band goes beyond half the sample rate, or, with one channel, to 0");
+  }
   try {
-    const auto steady =
-        proposed_steady_state(question.tracker, question.tone.start, band.lower(), band.lower() + width);
-    if (!steady) {
-      return std::nullopt;
+    std::optional<Found> found = find_loop(question);
+    if (!found) {
+      return nothing("no steady state was found from [model] start");
     }
-    LoopNetwork network = loop_network(question.tracker, *steady, band);
-    // To first order what turns with the signal changes with the errors: then there is no one matrix.
+    // To first order what turns with the signal changes with the errors, and so does an amplitude: then there
+    // is no one matrix.
+    const bool is_constant = !found->network.has_ripples && !question.tracker.amplitude_varies;
     const std::optional<linear::RadiusBounds> radius =
-        network.has_ripples ? std::nullopt : linear::spectral_radius_bounds(network.a);
+        is_constant ? linear::spectral_radius_bounds(found->network.a) : std::nullopt;
     if (radius && radius->lower > 1.0) {
-      return unstable({*steady, radius, std::nullopt, {}, std::nullopt});
+      return unstable({found->steady, radius, std::nullopt, {}, std::nullopt});
     }
-    const auto samples = linear::proposed_horizon(network.a, kBlocks, kTail, kMostSamples);
+    const auto samples = linear::proposed_horizon(found->network.a, kBlocks, kTail, kMostSamples);
     std::optional<GainBounds> gains;
     if (samples) {
-      gains = GainBounds::make(std::move(network), *samples, kBlocks);
+      gains = GainBounds::make(std::move(found->network), *samples, kBlocks);
     }
     if (!gains || !gains->bounds({})) {
-      return std::nullopt;
+      return nothing("the bounds of its errors do not close, even without noise");
     }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
     ProvedSets sets = GainSets(question, *gains, half_distance).all();
@@ -251,10 +330,10 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question) {
     for (const Interval& each : question.deviations) {
       assumed.start.push_back(each.upper());
     }
-    sets.gains = GainProof{*steady, radius, *gains, assumed, gains->bounds(assumed)};
+    sets.gains = GainProof{found->steady, radius, *gains, assumed, gains->bounds(assumed)};
     return sets;
-  } catch (const NoFrame&) {
-    return std::nullopt;
+  } catch (const NoFrame& objection) {
+    return nothing(objection.what());
   }
 }
 

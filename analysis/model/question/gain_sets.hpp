@@ -3,14 +3,16 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "analysis/model/question/proved_sets.hpp"
 
 namespace veritrack::model {
 
 /// Empty where the rules of gains do not cover the loop, or its steady state was not found. Then tubes may.
-/// The signal must be the tone alone. Needs the upward rounding mode.
-[[nodiscard]] std::optional<ProvedSets> prove_by_gains(const SetQuestion& question);
+/// The signal must be the tone alone. `reason` then receives why. Needs the upward rounding mode.
+[[nodiscard]] std::optional<ProvedSets> prove_by_gains(const SetQuestion& question,
+                                                       std::string* reason = nullptr);
 
 /// Whether its bound in the long run is near to that of the linear recursion, or the loop is unstable: then
 /// no tube is better. Needs the upward rounding mode.

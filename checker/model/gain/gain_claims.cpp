@@ -192,35 +192,35 @@ Claim GainClaims::steady_state(const Tree& claim) const {
       found.hypotheses + ", the mean over the phase of the frequency error in the long run is between " +
       units_.between(claim.at("bias_low").text(), claim.at("bias_high").text()) +
       ", and the error varies by at most " + units_.at_most(claim.at("ripple").text()) + " over the phase.";
-  found.verdict = proved_if(mean_is_between(written(claim, "bias_low"), written(claim, "bias_high")) &&
-                            varies_by_at_most(written(claim, "ripple")));
+  const Ball low = written(claim, "bias_low");
+  const Ball high = written(claim, "bias_high");
+  found.verdict = proved_if(certainly_less(max(abs(low), abs(high)), half_distance_) &&
+                            mean_is_between(low, high) && varies_by_at_most(written(claim, "ripple")));
   return found;
 }
 
 Claim GainClaims::stability(const Tree& claim) const {
   Claim found;
-  const bool has_one_matrix = gains_ != nullptr && gains_->network.has_one_matrix();
   found.is_summary = true;
   found.hypotheses = words_.constant_tone() + ", without noise";
+  found.statement = found.hypotheses + ", the steady state of the certificate is stable: to first order, ";
+  // To first order the linear recursion is the same at every sample, about a steady state of the true
+  // frequency.
+  const bool is_constant = gains_ != nullptr && gains_->network.has_one_matrix() &&
+                           !design_->amplitude_varies && gains_->network.is_at_rest &&
+                           certainly_less(abs(gains_->network.bias), half_distance_);
   if (const Tree* growth = claim.find("growth")) {
     const Ball factor = written(claim, "growth");
-    found.statement =
-        found.hypotheses +
-        ", the loop is stable: to first order, no error about the steady state of the certificate "
-        "grows by a factor of " +
-        growth->text() + " or more each sample.";
-    const bool grows = has_one_matrix && certainly_at_most(one, factor) &&
-                       an_eigenvalue_beyond(gains_->network.matrix, factor);
+    found.statement += "no error about it grows by a factor of " + growth->text() + " or more each sample.";
+    const bool grows =
+        is_constant && certainly_at_most(one, factor) && an_eigenvalue_beyond(gains_->network.matrix, factor);
     found.verdict = grows ? Verdict::refuted : Verdict::undecided;
     return found;
   }
   const Ball factor = written(claim, "decay");
-  found.statement =
-      found.hypotheses +
-      ", the loop is stable: to first order, errors about the steady state of the certificate shrink "
-      "in the long run by a factor of at most " +
-      claim.at("decay").text() + " each sample.";
-  found.verdict = proved_if(has_one_matrix && certainly_less(factor, one) &&
+  found.statement += "errors about it shrink in the long run by a factor of at most " +
+                     claim.at("decay").text() + " each sample.";
+  found.verdict = proved_if(is_constant && certainly_less(factor, one) &&
                             all_eigenvalues_within(gains_->network.matrix, factor));
   return found;
 }

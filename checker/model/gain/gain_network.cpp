@@ -69,6 +69,8 @@ void add_state(const LinearFrame& frame, const LinearValue& value, const SteadyS
     const Ball turn = two * pi();
     residual -= Ball(std::round((residual / turn).near())) * turn;
   }
+  const Ball rounding = Ball(0x1p-30) * (one + abs(steady.constant) + four * abs(steady.per_frequency));
+  network.is_at_rest = network.is_at_rest && certainly_at_most(abs(residual), rounding);
   GainInput input;
   input.column.assign(frame.states(), {zero, zero});
   input.column[state].first = one;
@@ -153,6 +155,8 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
   require_order(network);
   for (const FrameLimit& limit : frame.limits()) {
     network.limits.push_back({forms.of(limit.about), limit.base, limit.low, limit.high});
+    network.is_at_rest =
+        network.is_at_rest && certainly_less(limit.low, limit.base) && certainly_less(limit.base, limit.high);
   }
   network.error_form = forms.of(error);
   network.frequency = network.forms[network.error_form].row;

@@ -66,6 +66,8 @@ struct GainNetwork {
   std::vector<GainRipple> ripples;  ///< at a constant frequency only
   std::size_t error_form = 0;       ///< h(X_k) - omega_k, less the bias
   Ball bias;                        ///< over the band
+  /// What is listed is a steady state up to rounding, and no limit is crossed there.
+  bool is_at_rest = true;
   std::vector<Ball> frequency;      ///< the row of the frequency
   Ball least_amplitude;             ///< noise must be below it
 

@@ -158,6 +158,23 @@ LinearValue LinearFrame::scaled(const LinearValue& x, int constant) const {
   return result;
 }
 
+namespace {
+
+/// All x y: from their ends, because [-a, a] times itself, as middles and radii, is twice as wide as it need
+/// be.
+Ball product_of_ends(const Ball& x, const Ball& y, bool is_square) {
+  const Ball a = x.lower() * y.lower();
+  const Ball b = x.lower() * y.upper();
+  const Ball c = x.upper() * y.lower();
+  const Ball d = x.upper() * y.upper();
+  const Ball highest = max(max(a, b), max(c, d));
+  const bool holds_zero = !certainly_positive(x.lower()) && !certainly_positive(-x.upper());
+  const Ball lowest = min(min(a, b), min(c, d));
+  return Ball::hull(!is_square ? lowest : holds_zero ? zero : min(a, d), highest);
+}
+
+}  // namespace
+
 LinearValue LinearFrame::product_of_plain(int x, int y) {
   const LinearValue left = at(x);
   const LinearValue right = at(y);
@@ -166,7 +183,7 @@ LinearValue LinearFrame::product_of_plain(int x, int y) {
   const Ball of_left = base(left);
   const Ball of_right = base(right);
   LinearValue result;
-  result.constant = of_left * of_right;
+  result.constant = product_of_ends(of_left, of_right, x == y);
   add_deviations(result, left, of_right);
   add_deviations(result, right, of_left);
   if (!left.deviations.empty() && !right.deviations.empty()) {

@@ -39,7 +39,7 @@ TEST_CASE("a loop that is certified by gains: what each cause contributes, and a
 TEST_CASE("an unstable loop is refuted, with what would make it stable") {
   const Certificate certificate = test::two_channel_certificate("kp = 2.1, ki = 0.03");
   const std::string text = model_sections(certificate, {});
-  CHECK(text.find("This loop is unstable") != std::string::npos);
+  CHECK(text.find("The steady state below is unstable") != std::string::npos);
   // 2 kp - ki < 4
   CHECK(text.find("| `kp` | 2.1 | below 2.015 |") != std::string::npos);
   const auto answers = model_answers(certificate);

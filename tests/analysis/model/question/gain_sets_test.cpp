@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/model/gain_examples.hpp"
@@ -88,12 +90,29 @@ TEST_CASE("an unstable loop is known as such") {
   CHECK_FALSE(sets->starts.is_proved());
 }
 
+TEST_CASE("a start near an unstable steady state finds the stable one, half a turn away or by simulation") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));
+  for (const double off : {2.5, 3.1, 1.6, -2.0}) {
+    SetQuestion question = question_of(loop);
+    question.tone.start = [off](double omega) { return std::vector<double>{omega + off, omega}; };
+    const auto sets = prove_by_gains(question);
+    REQUIRE(sets.has_value());
+    REQUIRE(sets->gains->radius.has_value());
+    CHECK(sets->gains->radius->upper < 1.0);
+    CHECK(std::fabs(std::remainder(sets->gains->steady[0].constant, 2.0 * std::acos(-1.0))) < 1e-9);
+    CHECK(sets->assumed->is_proved());
+  }
+}
+
 TEST_CASE("other questions are left to tubes") {
   const rigor::UpwardRounding upward;
   const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));
   SetQuestion question = question_of(loop);
   question.allows_gains = false;
-  CHECK_FALSE(prove_by_gains(question).has_value());
+  std::string reason;
+  CHECK_FALSE(prove_by_gains(question, &reason).has_value());
+  CHECK_FALSE(reason.empty());
   question.allows_gains = true;
   question.whole_band = Interval::from_bounds(0.0, 4.0);
   CHECK_FALSE(prove_by_gains(question).has_value());

@@ -68,8 +68,8 @@ struct GainNetwork {
   Ball bias;                        ///< over the band
   /// What is listed is a steady state up to rounding, and no limit is crossed there.
   bool is_at_rest = true;
-  std::vector<Ball> frequency;      ///< the row of the frequency
-  Ball least_amplitude;             ///< noise must be below it
+  std::vector<Ball> frequency;  ///< the row of the frequency
+  Ball least_amplitude;         ///< noise must be below it
 
   [[nodiscard]] std::size_t states() const { return matrix.size(); }
   /// Whether the errors obey the matrix to first order. A ripple changes with them, at each phase otherwise.

@@ -126,11 +126,7 @@ TEST_CASE("the mean of a ripple whose angle is in step with it is not 0") {
   }
   const double mean = std::abs(sum / count);
   CHECK(mean <= errors->mean_in_long_run().upper_double());
-  Ball without_ripple = errors->deviation_in_long_run();
-  for (const GainRipple& ripple : network.ripples) {
-    without_ripple -= ripple.of_form[network.error_form];
-  }
-  CHECK(mean > 5.0 * without_ripple.upper_double());
+  CHECK(mean > 0.05);  // as large as the ripple itself, which has no part in it at a constant angle
 }
 
 TEST_CASE("with ripples the matrix says nothing on how fast errors shrink") {

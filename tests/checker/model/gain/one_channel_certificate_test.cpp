@@ -105,20 +105,20 @@ TEST_CASE("nothing of one channel that was changed for the better is verified") 
     return refuses_type_2([&](Json& c) { c["claims"][index][name] = value; });
   };
   CHECK(changes_claim(0, "frequency_error", "0.0001"));
-  CHECK(changes_claim(0, "settled_frequency_error", "0.00011"));
+  CHECK(changes_claim(0, "settled_frequency_error", "0.00009"));
   CHECK(changes_claim(1, "noise", "0.28"));
   CHECK(changes_claim(1, "frequency_error", "0.2"));  // perhaps another lock
   CHECK(changes_claim(1, "reach", "0.01"));
-  CHECK(changes_claim(2, "bias_high", "0.0000113"));  // the bound less the ripple
+  CHECK(changes_claim(2, "bias_high", "0.000003"));  // the bound less the ripple
   CHECK(changes_claim(2, "bias_low", "0"));
-  CHECK(changes_claim(2, "ripple", "0.0000277"));
+  CHECK(changes_claim(2, "ripple", "0.0000115"));
   const auto changes = [](const std::string& name, const Json& value) {
     return refuses_type_2([&](Json& c) { c["design"]["assume"][name] = value; });
   };
   CHECK(changes("noise", decimal("0.3")));
   CHECK(changes("slew", decimal("1e-12")));
   CHECK(changes("amplitude", Json::array({decimal("0.99"), decimal("1")})));
-  CHECK(changes("amplitude", decimal("1.1")));
+  CHECK(changes("amplitude", decimal("0.8")));
   CHECK(changes("frequency", {decimal("-0.5"), decimal("0.5")}));
   CHECK(changes("frequency", {decimal("-0.5"), decimal("-0.2")}));
   CHECK(changes("frequency", {decimal("0"), decimal("0.5")}));

@@ -49,8 +49,9 @@ double wave_remainder(const Interval& c0, const Interval& c1, double bound) {
   const Interval y(bound);
   const Interval even = bound < 3.0 ? Interval(1.0) - rigor::cos(y) : Interval(2.0);
   const Interval odd = y - rigor::sin(y);
-  return rigor::add_up(rigor::mul_up(rigor::magnitude(c0), std::max(0.0, even.upper())),
-                       rigor::mul_up(rigor::magnitude(c1), std::max(0.0, odd.upper())));
+  // In this order a bound that is no number stays none.
+  return rigor::add_up(rigor::mul_up(rigor::magnitude(c0), std::max(even.upper(), 0.0)),
+                       rigor::mul_up(rigor::magnitude(c1), std::max(odd.upper(), 0.0)));
 }
 
 struct FunctionRule {

@@ -169,17 +169,13 @@ class GainSets {
   double half_distance_;
 };
 
-}  // namespace
-
-namespace {
-
 ProvedSets unstable(GainProof proof) {
   ProvedSets sets;
   sets.starts.tubes.name = kStarts;
-  sets.starts.tubes.reasons.emplace_back(fmt::format(
-      "the loop is unstable: to first order, an error about its steady state grows by a factor of {:.4g} "
-      "or more each sample",
-      proof.radius->lower));
+  sets.starts.tubes.reasons.emplace_back(
+      fmt::format("its steady state is unstable: to first order, an error about it grows by "
+                  "a factor of {:.4g} or more each sample",
+                  proof.radius->lower));
   sets.assumed = sets.starts;
   sets.assumed->tubes.name = kAssumed;
   sets.gains = std::move(proof);

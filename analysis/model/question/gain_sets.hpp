@@ -14,8 +14,8 @@ namespace veritrack::model {
 [[nodiscard]] std::optional<ProvedSets> prove_by_gains(const SetQuestion& question,
                                                        std::string* reason = nullptr);
 
-/// Whether its bound in the long run is near to that of the linear recursion, or the loop is unstable: then
-/// no tube is better. Needs the upward rounding mode.
+/// Whether its bound in the long run is near to that of the linear recursion, or the steady state is
+/// unstable: then no tube is better. Needs the upward rounding mode.
 [[nodiscard]] bool is_near_linear(const ProvedSets& by_gains);
 
 }  // namespace veritrack::model

@@ -1,0 +1,120 @@
+// Bounds that are resolved over the phases, attacked: the noise that pushes in the direction of the linear
+// response at every sample, and random noise, from the steady state.
+#include "analysis/model/gain/phase_bounds.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "analysis/model/gain/floquet_proposal.hpp"
+#include "tests/analysis/model/tube_examples.hpp"
+
+namespace veritrack {
+
+namespace {
+
+constexpr double kLow = 0.29, kHigh = 0.31;
+
+Eigen::VectorXd curve_at(const model::FloquetCell& cell, double phase, double frequency) {
+  return test::PointTube(cell.curve).curve(phase, frequency);
+}
+
+Eigen::MatrixXd slopes(const test::Example& loop, const Eigen::VectorXd& state, double sample) {
+  const model::StepMap step(loop.tracker.recursion, loop.tracker.constants);
+  return step.jacobian(state, Eigen::VectorXd::Constant(1, sample));
+}
+
+/// The largest frequency error at the last of `samples` that noise of +-V reaches: signs by the adjoint along
+/// the curve.
+double attack(const test::Example& loop, const model::FloquetCell& cell, double frequency, double end,
+              double noise, int samples) {
+  const Eigen::Index n = 2;
+  std::vector<double> sign(static_cast<std::size_t>(samples));
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Unit(n, 0);  // the frequency is state 0
+  for (int k = samples; k-- > 0;) {
+    const double phase = end - (samples - k) * frequency;
+    const Eigen::MatrixXd all = slopes(loop, curve_at(cell, phase, frequency), std::cos(phase + frequency));
+    sign[static_cast<std::size_t>(k)] = (row * all.col(n))(0) > 0.0 ? 1.0 : -1.0;
+    row = row * all.leftCols(n);
+  }
+  double phase = end - samples * frequency;
+  Eigen::VectorXd state = curve_at(cell, phase, frequency);
+  for (int k = 0; k < samples; ++k) {
+    phase += frequency;
+    state =
+        test::next_state(loop.tracker, state, std::cos(phase) + noise * sign[static_cast<std::size_t>(k)]);
+  }
+  return std::fabs(state(0) - frequency);
+}
+
+}  // namespace
+
+TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly reach") {
+  const test::Example loop(test::phase_locked_loop(0.02));
+  const model::TrackedTone tone = test::tone_of(loop.tracker);
+  const auto cell = model::propose_floquet_cell(tone, kLow, kHigh);
+  REQUIRE(cell);
+  const rigor::UpwardRounding upward;
+  const auto bounds = model::PhaseLoop::make(loop.model, *cell, {64, 1024, 8}, 0);
+  REQUIRE(bounds);
+  const double frequency = kLow + (kHigh - kLow) / 16.0;
+  for (const double noise : {0.002, 0.02, 0.05}) {
+    const auto errors = bounds->errors(noise);
+    REQUIRE(errors);
+    CHECK(errors->long_run <= errors->for_ever);
+    double reached = 0.0;
+    for (int i = 0; i < 16; ++i) {
+      const double end = 2.0 * std::numbers::pi * i / 16.0;
+      reached = std::max(reached, attack(loop, *cell, frequency, end, noise, 900));
+      CHECK(reached <= errors->for_ever);
+    }
+    CHECK(reached >= 0.75 * errors->for_ever);
+  }
+  std::mt19937 random(20261129);
+  std::uniform_real_distribution<double> any(-0.05, 0.05);
+  const double bound = bounds->errors(0.05)->for_ever;
+  double phase = 0.0;
+  Eigen::VectorXd state = curve_at(*cell, phase, frequency);
+  for (int k = 0; k < 20000; ++k) {
+    phase = std::remainder(phase + frequency, 2.0 * std::numbers::pi);
+    state = test::next_state(loop.tracker, state, std::cos(phase) + any(random));
+    REQUIRE(std::fabs(state(0) - frequency) <= bound);
+  }
+}
+
+TEST_CASE("too much noise, and a horizon that is too short, bound nothing") {
+  const test::Example loop(test::phase_locked_loop(0.02));
+  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
+  REQUIRE(cell);
+  const rigor::UpwardRounding upward;
+  const auto bounds = model::PhaseLoop::make(loop.model, *cell, {64, 1024, 8}, 3);
+  REQUIRE(bounds);
+  CHECK_FALSE(bounds->errors(0.5));
+  CHECK_FALSE(bounds->errors(NAN));
+  CHECK_FALSE(model::PhaseLoop::make(loop.model, *cell, {64, 16, 8}, 3));
+}
+
+TEST_CASE("a wrong basis, matrix or curve is noticed") {
+  const test::Example loop(test::phase_locked_loop(0.02));
+  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
+  REQUIRE(cell);
+  const rigor::UpwardRounding upward;
+  const auto right = model::PhaseLoop::make(loop.model, *cell, {64, 1024, 8}, 3)->errors(0.02);
+  REQUIRE(right);
+  const auto with = [&](auto change) {
+    model::FloquetCell changed = *cell;
+    change(changed);
+    const auto made = model::PhaseLoop::make(loop.model, changed, {64, 1024, 8}, 3);
+    const auto errors = made ? made->errors(0.02) : std::nullopt;
+    return errors ? errors->for_ever : INFINITY;
+  };
+  // Another basis is another proof of the same bound, or none; another curve or matrix costs.
+  CHECK(with([](auto& c) { c.matrix[0][0] += 1e-3; }) > 1.05 * right->for_ever);
+  CHECK(with([](auto& c) { c.curve.curve[0].coefficients[0][0] += 1e-4; }) > 1.05 * right->for_ever);
+  CHECK(with([](auto& c) { c.basis[0].coefficients[2][0] += 0.05; }) > 1.05 * right->for_ever);
+  CHECK(with([](auto& c) { c.basis[0].coefficients[0][0] = NAN; }) == INFINITY);
+}
+
+}  // namespace veritrack

@@ -145,6 +145,18 @@ std::vector<std::string> objections_to_operations(const Model& model) {
         objections.push_back(fmt::format("{}{} may leave the limits of stays_within, {} and {}",
                                          operand(made.first), at, operand(made.second), operand(made.third)));
         break;
+      case Operation::choose:
+      case Operation::sign:
+        objections.push_back(fmt::format("{} jumps where {}{} is 0, which it may reach",
+                                         made.operation == Operation::sign ? "sign" : "a condition (if)",
+                                         operand(made.first), at));
+        break;
+      case Operation::clamp:
+        objections.push_back(
+            fmt::format("the limits of clamp({}, {}, {}){} may change places, or what it is "
+                        "of may become infinite",
+                        operand(made.first), operand(made.second), operand(made.third), at));
+        break;
       default:
         objections.push_back("an operation" + at + " may become infinite");
     }

@@ -30,6 +30,15 @@ double beyond(double bound, double distance) {
   return bound > distance ? rigor::sub_up(bound, distance) : bound <= distance ? 0.0 : bound;
 }
 
+/// A proposed steady state is one up to rounding: so near a kink the other side might be meant. The checker
+/// is content with half of this.
+void note_distance(Frame& frame, double distance) {
+  constexpr double kNear = 0x1p-19;
+  if (!(distance >= kNear)) {
+    FrameRules::rest_at_kink(frame);
+  }
+}
+
 FrameLine with_remainder(Frame& frame, FrameLine line, const char* what,
                          std::function<double(const std::vector<double>&)> size) {
   FrameInput input;
@@ -52,6 +61,7 @@ FrameLine larger(Frame& frame, const FrameLine& a, const FrameLine& b, const cha
   }
   const auto form = static_cast<std::size_t>(FrameRules::add_form(frame, z));
   if (is_first || is_second) {
+    note_distance(frame, rigor::mignitude(middle));
     return with_remainder(frame, is_first ? a : b, what,
                           [form, distance = rigor::mignitude(middle)](const std::vector<double>& bounds) {
                             return beyond(bounds[form], distance);
@@ -85,6 +95,7 @@ FrameLine inside(Frame& frame, const FrameLine& x, const FrameLine& low, const F
     if (below.is_form_empty() && above.is_form_empty()) {
       return x;
     }
+    note_distance(frame, std::min(to_low.lower(), to_high.lower()));
     const auto first = static_cast<std::size_t>(FrameRules::add_form(frame, below));
     const auto second = static_cast<std::size_t>(FrameRules::add_form(frame, above));
     return with_remainder(
@@ -112,6 +123,7 @@ int certain_sign(Frame& frame, const FrameLine& line) {
     throw NoFrame("the steady state is where a condition or a sign changes");
   }
   if (!line.is_form_empty()) {
+    note_distance(frame, rigor::mignitude(middle));
     FrameRules::add_limit(frame, FrameRules::add_form(frame, line), Interval(rigor::mignitude(middle)));
   }
   return is_positive ? 1 : -1;

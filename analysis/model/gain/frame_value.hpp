@@ -154,7 +154,7 @@ class Frame {
   [[nodiscard]] const std::vector<FrameLine>& forms() const { return forms_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
   [[nodiscard]] const std::vector<FrameRipple>& ripples() const { return ripples_; }
-  /// Whether a steady state may be at a kink: then nothing is linear to first order.
+  /// Whether a steady state may be at a kink or a jump: then nothing is linear to first order.
   [[nodiscard]] bool may_rest_at_kink() const { return may_rest_at_kink_; }
   [[nodiscard]] const rigor::Interval& band() const { return band_; }
   [[nodiscard]] int states() const { return states_; }

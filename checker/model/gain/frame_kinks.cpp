@@ -16,6 +16,11 @@ Ball beyond(const Ball& bound, const Ball& distance) {
 
 }  // namespace
 
+/// A listed steady state is one up to rounding: so near a kink the other side might be meant.
+void LinearFrame::note_distance(const Ball& distance) {
+  may_rest_at_kink_ = may_rest_at_kink_ || !certainly_less(Ball(0x1p-20), distance);
+}
+
 int LinearFrame::larger(int x, int y) {
   require_plain(at(x));
   require_plain(at(y));
@@ -30,6 +35,7 @@ int LinearFrame::larger(int x, int y) {
     LinearValue result = at(is_first ? x : y);
     std::function<Ball(const std::vector<Ball>&)> size;
     if (is_first || is_second) {
+      note_distance(abs(b));
       size = [distance = abs(b)](const std::vector<Ball>& bounds) { return beyond(bounds.at(0), distance); };
     } else {
       // Half the sum, and half of |x - y|.
@@ -61,6 +67,8 @@ int LinearFrame::clamped(int x, int low, int high) {
   if (is_inside) {
     const int result = made("inside " + std::to_string(below) + " " + std::to_string(above), [&] {
       LinearValue value = at(x);
+      note_distance(-a);
+      note_distance(-b);
       const std::size_t source = add_input({nullptr, {below, above}, [a, b](const std::vector<Ball>& bounds) {
                                               return max(beyond(bounds.at(0), -b), beyond(bounds.at(1), -a));
                                             }});
@@ -84,6 +92,7 @@ int LinearFrame::certain_sign(int x) {
     throw NotCovered("the steady state is where a condition or a sign changes");
   }
   if (!at(x).deviations.empty()) {
+    note_distance(abs(b));
     // 2^64 is no limit.
     limit(x, is_positive ? zero : -Ball(0x1p64), is_positive ? Ball(0x1p64) : zero);
   }

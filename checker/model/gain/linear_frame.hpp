@@ -115,7 +115,7 @@ class LinearFrame {
   [[nodiscard]] bool has_one_channel() const { return channels_ == 1; }
   [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
-  /// Whether a steady state may be at a kink: then nothing is linear to first order.
+  /// Whether a steady state may be at a kink or a jump: then nothing is linear to first order.
   [[nodiscard]] bool may_rest_at_kink() const { return may_rest_at_kink_; }
 
  private:
@@ -124,6 +124,7 @@ class LinearFrame {
   void limit(int x, const Ball& low, const Ball& high);
   [[nodiscard]] LinearValue scaled(const LinearValue& x, int constant) const;
   [[nodiscard]] LinearValue product_of_plain(int x, int y);
+  void note_distance(const Ball& distance);
   [[nodiscard]] int difference(int x, int y) { return sum(x, negated(y)); }
   [[nodiscard]] LinearValue value_of_function(const std::string& name, int x);
 

@@ -147,15 +147,13 @@ std::vector<std::string> objections_to_operations(const Model& model) {
         break;
       case Operation::choose:
       case Operation::sign:
-        objections.push_back(fmt::format("{} jumps where {}{} is 0, which it may reach",
-                                         made.operation == Operation::sign ? "sign" : "a condition (if)",
-                                         operand(made.first), at));
+        objections.push_back(fmt::format("{}{}, at whose 0 {} jumps, may change its sign",
+                                         operand(made.first), at,
+                                         made.operation == Operation::sign ? "sign" : "a condition"));
         break;
       case Operation::clamp:
-        objections.push_back(
-            fmt::format("the limits of clamp({}, {}, {}){} may change places, or what it is "
-                        "of may become infinite",
-                        operand(made.first), operand(made.second), operand(made.third), at));
+        objections.push_back(fmt::format("the limits of clamp{}, {} and {}, may change places", at,
+                                         operand(made.second), operand(made.third)));
         break;
       default:
         objections.push_back("an operation" + at + " may become infinite");

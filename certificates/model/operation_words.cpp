@@ -145,6 +145,16 @@ std::vector<std::string> objections_to_operations(const Model& model) {
         objections.push_back(fmt::format("{}{} may leave the limits of stays_within, {} and {}",
                                          operand(made.first), at, operand(made.second), operand(made.third)));
         break;
+      case Operation::choose:
+      case Operation::sign:
+        objections.push_back(fmt::format("{}{}, at whose 0 {} jumps, may change its sign",
+                                         operand(made.first), at,
+                                         made.operation == Operation::sign ? "sign" : "a condition"));
+        break;
+      case Operation::clamp:
+        objections.push_back(fmt::format("the limits of clamp{}, {} and {}, may change places", at,
+                                         operand(made.second), operand(made.third)));
+        break;
       default:
         objections.push_back("an operation" + at + " may become infinite");
     }

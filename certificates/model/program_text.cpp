@@ -100,10 +100,47 @@ class Writer {
       case Operation::atan2:
         return fmt::format("{}atan2({}, {})", syntax_->function_prefix, operand(made.first, of_sum),
                            operand(made.second, of_sum));
+      case Operation::minimum:
+        return two("minimum", "min", made);
+      case Operation::maximum:
+        return two("maximum", "max", made);
+      case Operation::absolute:
+        return fmt::format("{}({})", is_code() ? "absolute" : "abs", operand(made.first, of_sum));
+      case Operation::sign:
+        return fmt::format("{}({})", is_code() ? "sign_of" : "sign", operand(made.first, of_sum));
+      case Operation::clamp:
+        return fmt::format("{}({}, {}, {})", is_code() ? "clamped" : "clamp", operand(made.first, of_sum),
+                           operand(made.second, of_sum), operand(made.third, of_sum));
+      case Operation::choose:
+        return choice(made);
       default:
         return fmt::format("stays_within({}, {}, {})", operand(made.first, of_sum),
                            operand(made.second, of_sum), operand(made.third, of_sum));
     }
+  }
+
+  [[nodiscard]] bool is_code() const { return syntax_->power.empty(); }
+  [[nodiscard]] std::string two(std::string_view in_code, std::string_view in_formulas,
+                                const Instruction& made) const {
+    return fmt::format("{}({}, {})", is_code() ? in_code : in_formulas, operand(made.first, of_sum),
+                       operand(made.second, of_sum));
+  }
+  /// With the two values that are compared, in formulas.
+  [[nodiscard]] std::string choice(const Instruction& made) const {
+    std::string positive = operand(made.first, of_sum);
+    if (!is_code()) {
+      const int number = made.first - program_->inputs();
+      const bool is_difference =
+          !has_name(made.first) && number >= 0 &&
+          program_->instructions()[static_cast<std::size_t>(number)].operation == Operation::subtract;
+      positive += " > 0";
+      if (is_difference) {
+        const Instruction& difference = program_->instructions()[static_cast<std::size_t>(number)];
+        positive = operand(difference.first, of_sum) + " > " + operand(difference.second, of_sum);
+      }
+    }
+    return fmt::format("{}({}, {}, {})", is_code() ? "chosen" : "if", positive, operand(made.second, of_sum),
+                       operand(made.third, of_sum));
   }
 
   const StraightLineProgram* program_;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <set>
 
+#include "certificates/model/piecewise_code.hpp"
 #include "certificates/model/program_text.hpp"
 
 namespace veritrack::certificates {
@@ -41,7 +42,8 @@ constexpr std::string_view kTakenNames =
     "volatile while inline restrict and as assert async await class def del elif except finally from "
     "global import in is lambda nonlocal not or pass raise try with yield None True False end endif "
     "function endfunction math state sample next power state_next amplitude frequency tracker_step "
-    "tracker_frequency tracker_start j0 j1 jn y0 y1 yn gamma ";
+    "tracker_frequency tracker_start minimum maximum absolute sign_of clamped chosen j0 j1 jn y0 y1 yn "
+    "gamma ";
 
 bool is_taken(const std::string& name) {
   return kTakenNames.find(" " + name + " ") != std::string_view::npos;
@@ -155,6 +157,11 @@ class RecursionWriter {
   [[nodiscard]] std::vector<Assignment> start() {
     return assignments(model_->start, inputs({"A", "omega"}, {}), {}, states_, "part_", dialect_->syntax);
   }
+  /// The functions with kinks that the programs call, each followed by an empty line.
+  [[nodiscard]] std::string helpers() const {
+    return piecewise_code({&model_->step.program, &model_->frequency.program, &model_->start},
+                          dialect_->language);
+  }
   /// The assignments as statements.
   [[nodiscard]] std::string statements(const std::vector<Assignment>& lines, std::string_view indent,
                                        std::string_view type) const {
@@ -260,7 +267,7 @@ static inline double stays_within(double x, double low, double high) {{
   return x;
 }}
 
-enum {{ tracker_states = {}, tracker_samples = {} }};
+{}enum {{ tracker_states = {}, tracker_samples = {} }};
 
 /* The states after a sample (two samples for two channels). */
 void tracker_step(const double *state, const double *sample, double *next) {{
@@ -275,11 +282,12 @@ double tracker_frequency(const double *state) {{
 void tracker_start(double A, double omega, double *state) {{
 {}{}}}
 )",
-      title, writer.parameters("", "static const double "), writer.states().size(), writer.samples().size(),
-      unpack(writer.states_of_step(), "state"), unpack(writer.samples_of_step(), "sample"),
-      writer.statements(writer.step(), "  ", kType), pack(writer.next(), "next"),
-      unpack(writer.states_of_frequency(), "state"), writer.statements(writer.frequency(), "  ", kType),
-      writer.statements(writer.start(), "  ", kType), pack(writer.states(), "state"));
+      title, writer.parameters("", "static const double "), writer.helpers(), writer.states().size(),
+      writer.samples().size(), unpack(writer.states_of_step(), "state"),
+      unpack(writer.samples_of_step(), "sample"), writer.statements(writer.step(), "  ", kType),
+      pack(writer.next(), "next"), unpack(writer.states_of_frequency(), "state"),
+      writer.statements(writer.frequency(), "  ", kType), writer.statements(writer.start(), "  ", kType),
+      pack(writer.states(), "state"));
 }
 
 std::string as_python(RecursionWriter& writer, std::string_view title) {
@@ -309,7 +317,7 @@ def stays_within(x, low, high):
     return x
 
 
-def tracker_step(state, sample):
+{}def tracker_step(state, sample):
     """The states after a sample (two samples for two channels)."""
     {} = state
     {} = sample
@@ -326,7 +334,7 @@ def tracker_start(A, omega):
     """The state where the search for the steady state begins."""
 {}    return ({})
 )",
-      title, writer.parameters("", ""), tuple(writer.states()), tuple(writer.samples()),
+      title, writer.parameters("", ""), writer.helpers(), tuple(writer.states()), tuple(writer.samples()),
       writer.statements(writer.step(), "    ", ""), tuple(writer.next()), tuple(writer.states()),
       writer.statements(writer.frequency(), "    ", ""), writer.statements(writer.start(), "    ", ""),
       tuple(writer.states()));
@@ -363,7 +371,7 @@ end
 function x = stays_within(x, low, high)  % the certificate shows low < x < high: nothing has to be done here
 end
 
-function next = tracker_step(state, sample)  % the states after a sample (two samples for two channels)
+{}function next = tracker_step(state, sample)  % the states after a sample (two samples for two channels)
 {}{}{}{}  next = [{}];
 end
 
@@ -374,10 +382,11 @@ function state = tracker_start(A, omega)  % the state where the search for the s
 {}{}  state = [{}];
 end
 )",
-      title, parameters, unpack(writer.states_of_step(), "state"), unpack(writer.samples_of_step(), "sample"),
-      writer.statements(writer.step(), "  ", ""), fmt::join(writer.next(), "; "), parameters,
-      unpack(writer.states_of_frequency(), "state"), writer.statements(writer.frequency(), "  ", ""),
-      parameters, writer.statements(writer.start(), "  ", ""), fmt::join(writer.states(), "; "));
+      title, writer.helpers(), parameters, unpack(writer.states_of_step(), "state"),
+      unpack(writer.samples_of_step(), "sample"), writer.statements(writer.step(), "  ", ""),
+      fmt::join(writer.next(), "; "), parameters, unpack(writer.states_of_frequency(), "state"),
+      writer.statements(writer.frequency(), "  ", ""), parameters,
+      writer.statements(writer.start(), "  ", ""), fmt::join(writer.states(), "; "));
 }
 
 }  // namespace

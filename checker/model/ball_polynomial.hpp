@@ -137,5 +137,12 @@ BallPolynomial arctangent(const BallPolynomial& x);
 BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x);
 /// x, where certainly low < x < high.
 BallPolynomial stays_within(const BallPolynomial& x, const BallPolynomial& low, const BallPolynomial& high);
+// Functions with kinks: one branch where that is certain, else a chord and what lies between
+// (docs/model-proof.md, section 19). Of those that may jump, nothing is known.
+BallPolynomial larger(const BallPolynomial& x, const BallPolynomial& y);
+BallPolynomial clamped(const BallPolynomial& x, const BallPolynomial& low, const BallPolynomial& high);
+/// `a` where `positive` > 0, else `b`.
+BallPolynomial chosen(const BallPolynomial& positive, const BallPolynomial& a, const BallPolynomial& b);
+BallPolynomial sign_of(const BallPolynomial& x);
 
 }  // namespace veritrack::checker

@@ -35,6 +35,14 @@ struct Dependence {
   friend Dependence stays_within(const Dependence& x, const Dependence& low, const Dependence& high) {
     return either(x, either(low, high));
   }
+  friend Dependence larger(const Dependence& x, const Dependence& y) { return either(x, y); }
+  friend Dependence clamped(const Dependence& x, const Dependence& low, const Dependence& high) {
+    return either(x, either(low, high));
+  }
+  friend Dependence chosen(const Dependence& positive, const Dependence& a, const Dependence& b) {
+    return either(positive, either(a, b));
+  }
+  friend Dependence sign_of(const Dependence& x) { return x; }
 
  private:
   static Dependence either(const Dependence& x, const Dependence& y) {

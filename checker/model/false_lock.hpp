@@ -41,6 +41,14 @@ class Repeats {
   friend Repeats arctangent(const Repeats& x) { return x.function(); }
   friend Repeats arctangent2(const Repeats& y, const Repeats& x) { return (y / x).function(); }
   friend Repeats stays_within(const Repeats& x, const Repeats& /*low*/, const Repeats& /*high*/) { return x; }
+  friend Repeats larger(const Repeats& x, const Repeats& y) { return (x + y).function(); }
+  friend Repeats clamped(const Repeats& x, const Repeats& low, const Repeats& high) {
+    return (x + low + high).function();
+  }
+  friend Repeats chosen(const Repeats& positive, const Repeats& a, const Repeats& b) {
+    return (positive + a + b).function();
+  }
+  friend Repeats sign_of(const Repeats& x) { return x.function(); }
 
  private:
   [[nodiscard]] bool is_constant() const { return multiples_.empty() && parts() == 0; }

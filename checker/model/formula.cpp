@@ -104,6 +104,7 @@ class Reader {
   void operand();
   [[nodiscard]] bool operation();
   void close();
+  void comparison();
   void complete(int strength);
   void emit(FormulaStep step) {
     result_.push_back(std::move(step));
@@ -154,7 +155,7 @@ void Reader::complete(int strength) {
 
 /// A number, a name, a sign, or what opens a parenthesis.
 void Reader::operand() {
-  constexpr int kSignStrength = 3;
+  constexpr int kSignStrength = 4;
   if (take('-')) {
     waiting_.push_back({Waiting::What::sign, kSignStrength, {Kind::negate, {}, 0}});
   } else if (take('(')) {
@@ -194,6 +195,21 @@ void Reader::close() {
   --open_;
 }
 
+/// Between the two sides of a condition, the first argument of `if`: x < y is kept as x - y.
+void Reader::comparison() {
+  std::string sign(1, text_[at_++]);
+  sign += take('=') ? "=" : "";
+  constexpr int kStrength = 1;
+  complete(kStrength);
+  if (waiting_.empty() || waiting_.back().what != Waiting::What::call || waiting_.back().step.text != "if" ||
+      waiting_.back().step.count != 1) {
+    fail("a condition that is not the first argument of if");
+  }
+  waiting_.back().step.text += ' ' + sign;
+  waiting_.push_back({Waiting::What::binary, kStrength, {Kind::subtract, {}, 0}});
+  operand_is_next_ = true;
+}
+
 /// The token after an operand: false when it is not part of a formula.
 bool Reader::operation() {
   if (take(')')) {
@@ -211,6 +227,10 @@ bool Reader::operation() {
     operand_is_next_ = true;
     return true;
   }
+  if (!at_end() && (text_[at_] == '<' || text_[at_] == '>')) {
+    comparison();
+    return true;
+  }
   if (take('^')) {
     skip(open_ > 0);
     const std::string exponent = digits();
@@ -226,8 +246,8 @@ bool Reader::operation() {
     }
     return true;
   }
-  constexpr int kSumStrength = 1;
-  constexpr int kProductStrength = 2;
+  constexpr int kSumStrength = 2;
+  constexpr int kProductStrength = 3;
   const auto binary = [&](Kind kind, int strength) {
     complete(strength);
     waiting_.push_back({Waiting::What::binary, strength, {kind, {}, 0}});

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/model/piecewise.hpp"
 #include "checker/numbers/ball.hpp"
 
 namespace veritrack::checker {
@@ -21,9 +22,10 @@ class FormulaError : public std::invalid_argument {
 struct FormulaStep {
   enum class Kind { number, name, add, subtract, multiply, divide, negate, power, function };
   Kind kind = Kind::number;
-  std::string text;  ///< of a number, name (with its prime) or function
-  int count = 0;     ///< the exponent of a power, the number of arguments of a function
-  int slot = 0;      ///< of a number or name, once it is looked up: see ModelRecursion
+  std::string
+      text;  ///< of a number, name (with its prime) or function; of a condition "if <": it has x - y, a, b
+  int count = 0;  ///< the exponent of a power, the number of arguments of a function
+  int slot = 0;   ///< of a number or name, once it is looked up: see ModelRecursion
 };
 
 /// A formula in postfix notation.
@@ -54,8 +56,9 @@ const FormulaLine* unused_line(const std::vector<FormulaLine>& ordered,
                                const std::vector<std::string>& results);
 
 /// The value of a formula over any scalar that has arithmetic, sqrt, exp, log, sin, cos, tangent, arcsine,
-/// arccosine, arctangent, arctangent2 and stays_within. `leaf` gives the values of numbers and names.
-/// Throws FormulaError for a function that is unknown, or has the wrong number of arguments.
+/// arccosine, arctangent, arctangent2, stays_within and the functions of piecewise.hpp. `leaf` gives the
+/// values of numbers and names. Throws FormulaError for a function that is unknown, or has the wrong number
+/// of arguments.
 template <typename Scalar, typename Leaf>
 Scalar value_of(const Formula& formula, const Leaf& leaf);
 
@@ -140,6 +143,9 @@ Scalar value_of_function(const std::string& name, const std::vector<Scalar>& arg
   }
   if (is("stays_within", 3)) {
     return stays_within(arguments[0], arguments[1], arguments[2]);
+  }
+  if (std::optional<Scalar> value = value_of_piecewise(name, arguments)) {
+    return *std::move(value);
   }
   throw FormulaError("no function " + name + " with that many arguments");
 }

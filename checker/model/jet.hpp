@@ -1,6 +1,7 @@
 // First derivatives by the chain rule, over any scalar.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -132,6 +133,27 @@ Jet<Scalar> arctangent2(const Jet<Scalar>& y, const Jet<Scalar>& x) {
 template <typename Scalar>
 Jet<Scalar> stays_within(const Jet<Scalar>& x, const Jet<Scalar>& low, const Jet<Scalar>& high) {
   return {stays_within(x.value, low.value, high.value), x.slopes};
+}
+// Where a branch is certain on a whole cell, its derivatives are those of the function there.
+template <typename Scalar>
+Jet<Scalar> chosen(const Jet<Scalar>& positive, const Jet<Scalar>& a, const Jet<Scalar>& b) {
+  std::vector<Scalar> slopes;
+  for (std::size_t i = 0; i < std::max(a.slopes.size(), b.slopes.size()); ++i) {
+    slopes.push_back(chosen(positive.value, a.slope(i), b.slope(i)));
+  }
+  return {chosen(positive.value, a.value, b.value), std::move(slopes)};
+}
+template <typename Scalar>
+Jet<Scalar> larger(const Jet<Scalar>& x, const Jet<Scalar>& y) {
+  return chosen(x - y, x, y);
+}
+template <typename Scalar>
+Jet<Scalar> clamped(const Jet<Scalar>& x, const Jet<Scalar>& low, const Jet<Scalar>& high) {
+  return chosen(low - x, low, chosen(x - high, high, x));
+}
+template <typename Scalar>
+Jet<Scalar> sign_of(const Jet<Scalar>& x) {
+  return {sign_of(x.value)};
 }
 
 }  // namespace veritrack::checker

@@ -84,11 +84,24 @@ Computed stays_within(const Computed& x, const Computed& low, const Computed& hi
   return stays_within(x.ball, low.ball, high.ball);
 }
 
+Computed larger(const Computed& x, const Computed& y) {
+  return larger(x.ball, y.ball);
+}
+Computed clamped(const Computed& x, const Computed& low, const Computed& high) {
+  return clamped(x.ball, low.ball, high.ball);
+}
+Computed chosen(const Computed& positive, const Computed& a, const Computed& b) {
+  return chosen(positive.ball, a.ball, b.ball);
+}
+Computed sign_of(const Computed& x) {
+  return sign_of(x.ball);
+}
+
 /// A certificate's sentences and the signal use these words: they have one meaning. Throws FormulaError.
 void require_free(const std::string& name) {
-  constexpr std::array<std::string_view, 18> kTaken{"pi",   "A",     "phi",          "omega", "sqrt", "exp",
-                                                    "log",  "sin",   "cos",          "tan",   "asin", "acos",
-                                                    "atan", "atan2", "stays_within", "hypot", "tanh", "wrap"};
+  constexpr std::array<std::string_view, 24> kTaken{
+      "pi",  "A",    "phi", "omega", "sqrt",         "exp",   "log",  "sin",  "cos", "tan",  "asin",  "acos",
+      "min", "atan", "max", "atan2", "stays_within", "hypot", "tanh", "wrap", "abs", "sign", "clamp", "if"};
   if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
     throw FormulaError(name + " has two meanings");
   }

@@ -46,6 +46,14 @@ class TurnCount {
   friend TurnCount stays_within(const TurnCount& x, const TurnCount& low, const TurnCount& high) {
     return x.with(low).with(high);
   }
+  friend TurnCount larger(const TurnCount& x, const TurnCount& y) { return x.with(y); }
+  friend TurnCount clamped(const TurnCount& x, const TurnCount& low, const TurnCount& high) {
+    return x.with(low).with(high);
+  }
+  friend TurnCount chosen(const TurnCount& positive, const TurnCount& a, const TurnCount& b) {
+    return positive.with(a).with(b);
+  }
+  friend TurnCount sign_of(const TurnCount& x) { return x.with(x); }
 
  private:
   static TurnCount combined(const TurnCount& x, long times_x, const TurnCount& y, long times_y);

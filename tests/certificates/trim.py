@@ -61,6 +61,10 @@ model-gains       all claims that gains decide
 model-gains-unstable  a loop that is REFUTED
 From tests/certificates/model-gains-one-channel.toml, as it is:
 model-gains-one-channel  a loop whose detector also sees twice the frequency
+From tests/certificates/model-gains-limits.toml, model-gains-signs.toml and model-kinks.toml, as they are:
+model-gains-limits  a loop with a clamp that acts and one that does not
+model-gains-signs   a loop whose detector has signs, conditions and absolute values
+model-kinks         tubes of a tracker with a clamp and a floor of its divisor
 From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
@@ -490,6 +494,9 @@ KINDS = {
     "model-gains": lambda certificate: None,
     "model-gains-unstable": lambda certificate: None,
     "model-gains-one-channel": lambda certificate: None,
+    "model-gains-limits": lambda certificate: None,
+    "model-gains-signs": lambda certificate: None,
+    "model-kinks": lambda certificate: None,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
     "model-filter-gaussian": model_gaussian,

@@ -15,12 +15,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "trackers/model/piecewise.hpp"
 #include "trackers/scalar_functions.hpp"
 
 namespace veritrack::trackers {
 
 /// The operation of an instruction. `power` has an integer exponent of at least 0. `stays_within` (x, low,
-/// high) is x, and says that low < x < high has to be shown wherever the program is used.
+/// high) is x, and says that low < x < high has to be shown wherever the program is used. `choose` (x, a, b)
+/// is a where x > 0, and b elsewhere; operations of the other branch need not be defined.
 enum class Operation {
   add,
   subtract,
@@ -38,7 +40,13 @@ enum class Operation {
   acos,
   atan,
   atan2,
-  stays_within
+  stays_within,
+  minimum,
+  maximum,
+  absolute,
+  sign,
+  clamp,
+  choose
 };
 
 /// One operation. Operands are numbers of registers, -1 where the operation has fewer; the exponent of
@@ -158,7 +166,8 @@ class StraightLineProgram {
   template <typename Scalar>
   [[nodiscard]] static Scalar value_of(const Instruction& instruction, const std::vector<Scalar>& registers) {
     using detail::integer_power;
-    using detail::stays_within;
+    using detail::stays_within, detail::minimum, detail::maximum, detail::absolute, detail::sign_of,
+        detail::clamped, detail::chosen;
     using std::acos, std::asin, std::atan, std::atan2, std::cos, std::exp, std::log, std::sin, std::sqrt,
         std::tan;
     const auto operand = [&](int number) -> const Scalar& {
@@ -204,6 +213,18 @@ class StraightLineProgram {
         return atan2(a, operand(instruction.second));
       case Operation::stays_within:
         return stays_within(a, operand(instruction.second), operand(instruction.third));
+      case Operation::minimum:
+        return minimum(a, operand(instruction.second));
+      case Operation::maximum:
+        return maximum(a, operand(instruction.second));
+      case Operation::absolute:
+        return absolute(a);
+      case Operation::sign:
+        return sign_of(a);
+      case Operation::clamp:
+        return clamped(a, operand(instruction.second), operand(instruction.third));
+      case Operation::choose:
+        return chosen(a, operand(instruction.second), operand(instruction.third));
     }
     throw std::invalid_argument("an operation that is not known");
   }

@@ -13,6 +13,7 @@
 #include "analysis/model/step/point_tube.hpp"
 #include "analysis/model/step/tube_step.hpp"
 #include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/piecewise.hpp"
 #include "analysis/rigor/taylor_model.hpp"
 
 namespace veritrack::model {

@@ -29,7 +29,12 @@ enum class FrameOperation {
   arctangent,
   arctangent2,
   within,
-  line
+  line,
+  largest,
+  least,
+  absolute,
+  limits,
+  clamped
 };
 
 /// Where Y = value Im-like and X = value Re-like of one wave M: X + i Y = kappa M or kappa conj(M), with
@@ -61,6 +66,7 @@ struct FrameRules {
   static int add_form(Frame& frame, const FrameLine& line);
   static int add_input(Frame& frame, FrameInput input);
   static void add_limit(Frame& frame, int form, const rigor::Interval& room);
+  static void rest_at_kink(Frame& frame);
   static FrameLine part_of_wave(Frame& frame, const Monomial& monomial, int part);
   static int form_of_phase(Frame& frame, const Monomial& monomial, const FrameLine& phase);
   static FrameLine line_of_waves(Frame& frame, const Waves& waves);

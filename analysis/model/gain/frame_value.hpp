@@ -99,6 +99,13 @@ FrameValue acos(const FrameValue& a);
 FrameValue atan(const FrameValue& a);
 FrameValue atan2(const FrameValue& y, const FrameValue& x);
 FrameValue stays_within(const FrameValue& x, const FrameValue& low, const FrameValue& high);
+FrameValue maximum(const FrameValue& a, const FrameValue& b);
+FrameValue minimum(const FrameValue& a, const FrameValue& b);
+FrameValue absolute(const FrameValue& x);
+FrameValue clamped(const FrameValue& x, const FrameValue& low, const FrameValue& high);
+/// `a` where `positive` is above 0, else `b`.
+FrameValue chosen(const FrameValue& positive, const FrameValue& a, const FrameValue& b);
+FrameValue sign_of(const FrameValue& x);
 
 /// An input of the network: noise, or the remainder of an operation.
 struct FrameInput {
@@ -147,6 +154,8 @@ class Frame {
   [[nodiscard]] const std::vector<FrameLine>& forms() const { return forms_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
   [[nodiscard]] const std::vector<FrameRipple>& ripples() const { return ripples_; }
+  /// Whether a steady state may be at a kink or a jump: then nothing is linear to first order.
+  [[nodiscard]] bool may_rest_at_kink() const { return may_rest_at_kink_; }
   [[nodiscard]] const rigor::Interval& band() const { return band_; }
   [[nodiscard]] int states() const { return states_; }
 
@@ -171,6 +180,7 @@ class Frame {
   std::vector<FrameLine> forms_;
   std::vector<FrameLimit> limits_;
   std::vector<FrameRipple> ripples_;
+  bool may_rest_at_kink_ = false;
 };
 
 }  // namespace veritrack::model

@@ -179,6 +179,7 @@ class Assembly {
     for (const FrameLine& form : frame_.forms()) {
       add_form(form);
     }
+    network_.may_rest_at_kink = frame_.may_rest_at_kink();
     network_.bias = frequency_.constant + (frequency_.per_frequency - Interval(1.0)) * frame_.band();
     for (const FrameLimit& limit : frame_.limits()) {
       network_.limits.emplace_back(static_cast<std::size_t>(limit.form), limit.room);

@@ -53,7 +53,8 @@ struct LoopNetwork {
     std::size_t angle = 0;
   };
   std::vector<TurningPart> turning;
-  bool has_ripples = false;  ///< then bounds are for a constant frequency
+  bool may_rest_at_kink = false;  ///< then there is no matrix to first order
+  bool has_ripples = false;       ///< then bounds are for a constant frequency
   /// The one state of which the frequency error is a multiple, and the factor; or none.
   std::optional<std::pair<std::size_t, double>> frequency_state;
 };

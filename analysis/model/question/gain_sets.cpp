@@ -306,7 +306,8 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::strin
     }
     // To first order what turns with the signal changes with the errors, and so does an amplitude: then there
     // is no one matrix.
-    const bool is_constant = !found->network.has_ripples && !question.tracker.amplitude_varies;
+    const bool is_constant =
+        !found->network.has_ripples && !found->network.may_rest_at_kink && !question.tracker.amplitude_varies;
     const std::optional<linear::RadiusBounds> radius =
         is_constant ? linear::spectral_radius_bounds(found->network.a) : std::nullopt;
     if (radius && radius->lower > 1.0) {

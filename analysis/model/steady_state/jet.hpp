@@ -167,5 +167,31 @@ template <int K>
 [[nodiscard]] Jet<K> stays_within(const Jet<K>& x, const Jet<K>& /*low*/, const Jet<K>& /*high*/) {
   return x;
 }
+// Of functions with kinks, the branch that is taken.
+template <int K>
+[[nodiscard]] Jet<K> chosen(const Jet<K>& positive, const Jet<K>& a, const Jet<K>& b) {
+  return positive.at(0) > 0.0 ? a : b;
+}
+template <int K>
+[[nodiscard]] Jet<K> maximum(const Jet<K>& a, const Jet<K>& b) {
+  return a.at(0) < b.at(0) ? b : a;
+}
+template <int K>
+[[nodiscard]] Jet<K> minimum(const Jet<K>& a, const Jet<K>& b) {
+  return b.at(0) < a.at(0) ? b : a;
+}
+template <int K>
+[[nodiscard]] Jet<K> absolute(const Jet<K>& x) {
+  return x.at(0) < 0.0 ? -x : x;
+}
+template <int K>
+[[nodiscard]] Jet<K> clamped(const Jet<K>& x, const Jet<K>& low, const Jet<K>& high) {
+  return x.at(0) < low.at(0) ? low : high.at(0) < x.at(0) ? high : x;
+}
+template <int K>
+[[nodiscard]] Jet<K> sign_of(const Jet<K>& x) {
+  const double value = x.at(0);
+  return Jet<K>(value > 0.0 ? 1.0 : value < 0.0 ? -1.0 : value);
+}
 
 }  // namespace veritrack::model

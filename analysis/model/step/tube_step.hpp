@@ -14,6 +14,7 @@
 #include "analysis/model/step/tube.hpp"
 #include "analysis/rigor/ball_model.hpp"
 #include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/piecewise.hpp"
 #include "trackers/model/filter_parts.hpp"
 #include "trackers/model/model_tracker.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "analysis/rigor/dual_functions.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/piecewise.hpp"
 
 namespace veritrack::model {
 
@@ -143,6 +144,14 @@ std::vector<Degree> degrees_of(const StraightLineProgram& program, const std::ve
         break;
       case Operation::atan2:
         result = function_of(product_of(a, inverse_of(at(made.second))));
+        break;
+      case Operation::minimum:
+      case Operation::maximum:
+        result = function_of(sum_of(a, at(made.second)));
+        break;
+      case Operation::clamp:
+      case Operation::choose:
+        result = function_of(sum_of(sum_of(a, at(made.second)), at(made.third)));
         break;
       default:
         result = function_of(a);

@@ -98,6 +98,13 @@ class Compiler {
     if (expression.operands.empty()) {
       return names_.find(expression);
     }
+    if (expression.kind == Expression::Kind::comparison) {
+      throw LanguageError(
+          expression.position,
+          fmt::format("a condition with {} that is no first argument of if; allowed: if(x {} y, "
+                      "a, b)",
+                      expression.text, expression.text));
+    }
     Instruction instruction;
     if (expression.kind == Expression::Kind::call) {
       const std::optional<Function> function = find_function(expression.text);
@@ -114,6 +121,9 @@ class Compiler {
                             fmt::format("{} has {} arguments; allowed: {}", expression.text,
                                         expression.operands.size(), function->arguments));
       }
+      if (function->operation == Operation::choose) {
+        return choice(expression);
+      }
       instruction.operation = function->operation;
     } else {
       instruction.operation = operation_of(expression.kind);
@@ -128,11 +138,7 @@ class Compiler {
     instruction.first = operands[0];
     instruction.second = operands[1];
     instruction.third = operands[2];
-    const int place = result_.program.append(instruction);
-    if (result_.program.instructions().size() > result_.positions.size()) {
-      result_.positions.push_back(expression.position);
-    }
-    return place;
+    return append(instruction, expression.position);
   }
   void define(const std::string& name, int place) { names_.define(name, place); }
   /// Notes the first name that a register is given.
@@ -142,6 +148,31 @@ class Compiler {
   [[nodiscard]] CompiledProgram take() { return std::move(result_); }
 
  private:
+  int append(const Instruction& instruction, Position position) {
+    const int place = result_.program.append(instruction);
+    if (result_.program.instructions().size() > result_.positions.size()) {
+      result_.positions.push_back(position);
+    }
+    return place;
+  }
+  /// if(x > y, a, b): a where x - y > 0, else b. x <= y is the opposite, x < y is y > x.
+  [[nodiscard]] int choice(const Expression& call) {
+    const Expression& condition = call.operands[0];
+    if (condition.kind != Expression::Kind::comparison) {
+      throw LanguageError(condition.position,
+                          "the first argument of if is no condition; allowed: x < y, x <= y, x > y, x >= y");
+    }
+    const int left = place_of(condition.operands[0]);
+    const int right = place_of(condition.operands[1]);
+    const int a = place_of(call.operands[1]);
+    const int b = place_of(call.operands[2]);
+    const bool is_less = condition.text == "<" || condition.text == ">=";
+    const bool is_opposite = condition.text.size() == 2;
+    const int positive =
+        append({Operation::subtract, is_less ? right : left, is_less ? left : right}, condition.position);
+    return append({Operation::choose, positive, is_opposite ? b : a, is_opposite ? a : b}, call.position);
+  }
+
   Names names_;
   CompiledProgram result_;
 };

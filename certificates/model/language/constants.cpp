@@ -9,6 +9,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/piecewise.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/model/language/compiler.hpp"

@@ -23,10 +23,11 @@ class LanguageError : public std::runtime_error {
 
 /// A formula. Operands stand in the order in which they are written.
 struct Expression {
-  enum class Kind { number, name, negation, sum, difference, product, quotient, power, call };
+  /// A comparison, < <= > >=, is the first argument of a call of `if`, and nothing else.
+  enum class Kind { number, name, negation, sum, difference, product, quotient, power, call, comparison };
   Kind kind = Kind::number;
   Position position;
-  /// number: as written; name: with the prime of a next value; call: the function.
+  /// number: as written; name: with the prime of a next value; call: the function; comparison: its sign.
   std::string text;
   int exponent = 0;  ///< of power
   int depth = 0;     ///< operations one inside the other, this one included

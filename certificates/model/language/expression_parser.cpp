@@ -44,8 +44,12 @@ struct close : one<')'> {};
 struct open_call : one<'('> {};
 /// Looks ahead, so that no action is applied to a name that turns out not to be a function.
 struct starts_a_call : at<word, spaces<false>, one<'('>> {};
-struct call : if_must<starts_a_call, function, spaces<false>, open_call, spaces<true>, argument, spaces<true>,
-                      star<if_must<comma, spaces<true>, argument, spaces<true>>>, close> {};
+struct comparison : seq<one<'<', '>'>, opt<one<'='>>> {};
+struct comparison_and_right : if_must<comparison, spaces<true>, argument> {};
+/// A condition is the first argument of `if` (the compiler sees to it). Ends with the spaces behind it.
+struct compared : seq<argument, spaces<true>, opt<comparison_and_right, spaces<true>>> {};
+struct call : if_must<starts_a_call, function, spaces<false>, open_call, spaces<true>, compared,
+                      star<if_must<comma, spaces<true>, compared>>, close> {};
 struct group : if_must<one<'('>, spaces<true>, argument, spaces<true>, close> {};
 struct primary : sor<number, call, name, group> {};
 template <bool Inside>
@@ -91,6 +95,8 @@ namespace {
 template <typename Rule>
 inline constexpr std::string_view kAllowed = "a number, a name, a function, a minus sign or (";
 template <>
+inline constexpr std::string_view kAllowed<grammar::compared> = kAllowed<grammar::argument>;
+template <>
 inline constexpr std::string_view kAllowed<grammar::close> = "an operator or ) (or a comma in a function)";
 template <>
 inline constexpr std::string_view kAllowed<grammar::exponent> =
@@ -116,6 +122,7 @@ struct Building {
   std::vector<std::size_t> open_calls;  ///< how many operands there were
   std::vector<std::pair<std::string, Position>> functions;
   std::vector<Position> minus_signs;
+  std::vector<std::string> comparisons;  ///< whose right side is being read
   std::vector<Definition> definitions;
 
   [[nodiscard]] Position at(std::size_t line, std::size_t column) const {
@@ -256,6 +263,22 @@ struct Action<grammar::call> {
 };
 
 template <>
+struct Action<grammar::comparison> {
+  template <typename Input>
+  static void apply(const Input& input, Building& building) {
+    building.comparisons.push_back(input.string());
+  }
+};
+template <>
+struct Action<grammar::comparison_and_right> {
+  static void apply0(Building& building) {
+    building.join(Expression::Kind::comparison);
+    building.operands.back().text = std::move(building.comparisons.back());
+    building.comparisons.pop_back();
+  }
+};
+
+template <>
 struct Action<grammar::defined_name> {
   template <typename Input>
   static void apply(const Input& input, Building& building) {
@@ -276,13 +299,15 @@ std::string found_at(std::string_view rest) {
   return line.empty() ? "the line ends" : fmt::format("found \"{}\"", printable(line, kShownLimit));
 }
 
-/// Advice where somebody has written a condition: `x > 0 ? a : b`, `if x > 0`.
+/// Advice where somebody has written a condition in the manner of another language: `x > 0 ? a : b`, `if x >
+/// 0`.
 std::string_view advice_on_conditions(std::string_view before, std::string_view rest) {
   constexpr std::string_view kBlank = " \t";
   constexpr std::string_view kSigns = "?<>!&|";
   before = before.substr(0, before.find_last_not_of(kBlank) + 1);
-  const bool is_sign =
-      !rest.empty() && (kSigns.find(rest.front()) != std::string_view::npos || rest.starts_with("=="));
+  const bool is_equality = rest.starts_with("==") || rest.starts_with("!=") || before.ends_with("==") ||
+                           (rest.starts_with("=") && before.find('(') != std::string_view::npos);
+  const bool is_sign = !rest.empty() && kSigns.find(rest.front()) != std::string_view::npos;
   bool is_word = false;
   constexpr std::string_view kBetween = " \t\r\n=()";
   for (const std::string_view word : {"if", "else", "then", "elif", "and", "or", "not"}) {
@@ -294,9 +319,10 @@ std::string_view advice_on_conditions(std::string_view before, std::string_view 
          (earlier.empty() || kBetween.find(earlier.back()) != std::string_view::npos)) ||
         (rest.starts_with(word) && (later.empty() || kBetween.find(later.front()) != std::string_view::npos));
   }
-  return is_sign || is_word
-             ? "; a condition is not smooth: for a limit that never acts in lock write stays_within(x, low, "
-               "high), which is x (it is proved then that low < x < high)"
+  return is_equality ? "; of two values in floating point write x < y, x <= y, x > y or x >= y"
+         : is_sign || is_word
+             ? "; a condition is written if(x > y, a, b), which is a where x > y, else b; other signs: < <= "
+               ">=; two conditions: an if inside the other"
              : std::string_view();
 }
 

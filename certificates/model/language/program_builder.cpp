@@ -82,6 +82,10 @@ Differentiated ProgramBuilder::differentiate(const Instruction& instruction,
   const Term value = append({instruction.operation, place_of(a.value), has_second ? place_of(b.value) : -1,
                              instruction.third >= 0 ? place_of(operand(instruction.third).value) : -1,
                              instruction.exponent});
+  if (instruction.operation >= Operation::minimum) {
+    const Differentiated& c = instruction.third >= 0 ? operand(instruction.third) : a;
+    return derivatives_by_branch(instruction, value, {&a, &b, &c});
+  }
   Differentiated result{value, {}};
   for (std::size_t i = 0; i < a.derivatives.size(); ++i) {
     const Term da = a.derivatives[i];
@@ -138,10 +142,57 @@ Term ProgramBuilder::derivative_of(const Instruction& instruction, Term value, c
       const Term right = multiply(a, db);
       return divide(subtract(multiply(b, da), right), length);
     }
-    case Operation::stays_within:
-      return da;
+    default:
+      return da;  // of stays_within
   }
-  return Term::zero();
+}
+
+Term ProgramBuilder::choose(Term positive, Term a, Term b) {
+  if ((a.is_zero() && b.is_zero()) || (a.is_one() && b.is_one())) {
+    return a;
+  }
+  const int at_positive = place_of(a);
+  return append({Operation::choose, place_of(positive), at_positive, place_of(b)});
+}
+
+// The branch that is taken: each condition is that of the value.
+Differentiated ProgramBuilder::derivatives_by_branch(const Instruction& instruction, Term value,
+                                                     const std::vector<const Differentiated*>& operands) {
+  Differentiated result{value, {}};
+  const Differentiated& a = *operands[0];
+  const Term zero = Term::zero();
+  for (std::size_t i = 0; i < a.derivatives.size(); ++i) {
+    const Term da = a.derivatives[i];
+    const Term db = operands[1]->derivatives[i];
+    const Term dc = operands[2]->derivatives[i];
+    Term slope = zero;
+    switch (instruction.operation) {
+      case Operation::minimum:
+      case Operation::maximum: {
+        const bool is_minimum = instruction.operation == Operation::minimum;
+        const Term left = is_minimum ? a.value : operands[1]->value;
+        const Term right = is_minimum ? operands[1]->value : a.value;
+        slope = da.is_zero() && db.is_zero() ? zero : choose(subtract(left, right), db, da);
+        break;
+      }
+      case Operation::absolute:
+        slope = da.is_zero() ? zero : choose(a.value, da, negate(da));
+        break;
+      case Operation::clamp:
+        if (!da.is_zero() || !db.is_zero() || !dc.is_zero()) {
+          const Term inside = choose(subtract(a.value, operands[2]->value), dc, da);
+          slope = choose(subtract(operands[1]->value, a.value), db, inside);
+        }
+        break;
+      case Operation::choose:
+        slope = choose(a.value, db, dc);
+        break;
+      default:
+        break;  // a sign
+    }
+    result.derivatives.push_back(slope);
+  }
+  return result;
 }
 
 Term ProgramBuilder::square(Term a) {

@@ -65,6 +65,11 @@ class ProgramBuilder {
   };
   [[nodiscard]] Term derivative_of(const trackers::Instruction& instruction, Term value, const Slope& first,
                                    const Slope& second);
+  /// Of functions with kinks.
+  [[nodiscard]] Differentiated derivatives_by_branch(const trackers::Instruction& instruction, Term value,
+                                                     const std::vector<const Differentiated*>& operands);
+  /// `a` where `positive` is above 0, else `b`.
+  [[nodiscard]] Term choose(Term positive, Term a, Term b);
   [[nodiscard]] Term square(Term a);
   /// n x^(n - 1).
   [[nodiscard]] Term slope_of_power(Term base, int exponent);

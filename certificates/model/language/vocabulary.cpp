@@ -28,12 +28,44 @@ constexpr std::array kFunctions{
     Function{"atan", Operation::atan, 1},
     Function{"atan2", Operation::atan2, 2},
     Function{"stays_within", Operation::stays_within, 3},
+    Function{"min", Operation::minimum, 2},
+    Function{"max", Operation::maximum, 2},
+    Function{"abs", Operation::absolute, 1},
+    Function{"sign", Operation::sign, 1},
+    Function{"clamp", Operation::clamp, 3},
+    Function{"if", Operation::choose, 3},
 };
 
-/// Functions that have a kink or a jump.
-constexpr std::array<std::string_view, 16> kNotSmooth{
-    "min",   "max",  "fmin", "fmax",     "floor",     "ceil", "round", "trunc",
-    "clamp", "clip", "sat",  "saturate", "heaviside", "if",   "step",  "limit"};
+/// Names that other languages have for functions of this one.
+struct Synonym {
+  std::string_view name, instead;
+};
+constexpr std::array kSynonyms{
+    Synonym{"mod", "wrap(x), which brings an angle between -pi and pi, or a state that is named in angles"},
+    Synonym{"fmod", "wrap(x), which brings an angle between -pi and pi, or a state that is named in angles"},
+    Synonym{"remainder",
+            "wrap(x), which brings an angle between -pi and pi, or a state that is named in angles"},
+    Synonym{"fabs", "abs(x)"},
+    Synonym{"sgn", "sign(x), which is 1, -1, or 0 at 0"},
+    Synonym{"signum", "sign(x), which is 1, -1, or 0 at 0"},
+    Synonym{"fmin", "min(x, y)"},
+    Synonym{"fmax", "max(x, y)"},
+    Synonym{"clip", "clamp(x, low, high)"},
+    Synonym{"sat", "clamp(x, low, high)"},
+    Synonym{"saturate", "clamp(x, low, high)"},
+    Synonym{"constrain", "clamp(x, low, high)"},
+    Synonym{"limit",
+            "clamp(x, low, high); or stays_within(x, low, high), which is x and never acts: it is proved "
+            "then that low < x < high"},
+    Synonym{"heaviside", "if(x > 0, 1, 0)"},
+    Synonym{"step", "if(x > 0, 1, 0)"},
+    Synonym{"where", "if(x > y, a, b)"},
+    Synonym{"select", "if(x > y, a, b)"},
+    Synonym{"ternary", "if(x > y, a, b)"},
+};
+
+/// Functions that jump again and again: nothing is known of where.
+constexpr std::array<std::string_view, 5> kRounding{"floor", "ceil", "round", "trunc", "rint"};
 
 constexpr std::size_t kShownOfFunction = 40;
 
@@ -47,25 +79,16 @@ std::optional<Function> find_function(std::string_view name) {
 
 std::string objection_to_function(std::string_view name) {
   const std::string shown = printable(name, kShownOfFunction);
-  if (name == "mod" || name == "fmod" || name == "remainder") {
+  const auto* const synonym = std::find_if(kSynonyms.begin(), kSynonyms.end(),
+                                           [&](const Synonym& each) { return each.name == name; });
+  if (synonym != kSynonyms.end()) {
+    return fmt::format("unknown function {}; allowed: {}", shown, synonym->instead);
+  }
+  if (std::find(kRounding.begin(), kRounding.end(), name) != kRounding.end()) {
     return fmt::format(
-        "{} is not smooth; allowed here: wrap(x), which brings an angle between -pi and pi, or a state "
-        "that is named in angles",
+        "{} rounds, which cannot be certified; allowed: the value without it, with a noise that includes the "
+        "rounding of the sample",
         shown);
-  }
-  if (name == "abs" || name == "fabs") {
-    return fmt::format("{} is not smooth; allowed here: sqrt(x^2), where x stays away from 0 in lock", shown);
-  }
-  if (name == "sign" || name == "sgn") {
-    return fmt::format("{} is not smooth; allowed here: x/sqrt(x^2), where x stays away from 0 in lock",
-                       shown);
-  }
-  if (std::find(kNotSmooth.begin(), kNotSmooth.end(), name) != kNotSmooth.end()) {
-    return fmt::format(
-        "{} is not smooth; allowed here: stays_within(x, low, high), which is x, if {} never acts in lock "
-        "(it is "
-        "proved then that low < x < high)",
-        shown, shown);
   }
   if (name == "pow") {
     return "pow is unknown; allowed: x^n with a whole exponent, sqrt(x), or exp(p*log(x))";

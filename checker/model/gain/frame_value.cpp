@@ -147,5 +147,20 @@ FrameValue arctangent2(const FrameValue& y, const FrameValue& x) {
 FrameValue stays_within(const FrameValue& x, const FrameValue& low, const FrameValue& high) {
   return FrameValue(FrameValue::Linear{frame().stays_within(x.linear(), low.linear(), high.linear())});
 }
+FrameValue larger(const FrameValue& x, const FrameValue& y) {
+  return FrameValue(FrameValue::Linear{frame().larger(x.linear(), y.linear())});
+}
+
+FrameValue clamped(const FrameValue& x, const FrameValue& low, const FrameValue& high) {
+  return FrameValue(FrameValue::Linear{frame().clamped(x.linear(), low.linear(), high.linear())});
+}
+
+FrameValue chosen(const FrameValue& positive, const FrameValue& a, const FrameValue& b) {
+  return frame().certain_sign(positive.linear()) > 0 ? a : b;
+}
+
+FrameValue sign_of(const FrameValue& x) {
+  return {static_cast<double>(frame().certain_sign(x.linear()))};
+}
 
 }  // namespace veritrack::checker

@@ -43,6 +43,10 @@ class FrameValue {
   friend FrameValue arctangent(const FrameValue& x);
   friend FrameValue arctangent2(const FrameValue& y, const FrameValue& x);
   friend FrameValue stays_within(const FrameValue& x, const FrameValue& low, const FrameValue& high);
+  friend FrameValue larger(const FrameValue& x, const FrameValue& y);
+  friend FrameValue clamped(const FrameValue& x, const FrameValue& low, const FrameValue& high);
+  friend FrameValue chosen(const FrameValue& positive, const FrameValue& a, const FrameValue& b);
+  friend FrameValue sign_of(const FrameValue& x);
 
  private:
   struct Linear {

@@ -83,6 +83,10 @@ class LinearFrame {
   /// A function of this name: sqrt, exp, log, tan, asin, acos, atan, reciprocal.
   int function(const std::string& name, int x);
   int stays_within(int x, int low, int high);
+  int larger(int x, int y);
+  int clamped(int x, int low, int high);
+  /// 1 or -1: that it stays so is a limit.
+  int certain_sign(int x);
   /// The angle that noise adds to that of the sample.
   int noise_angle();
   int quarter_turns(int count);
@@ -111,6 +115,8 @@ class LinearFrame {
   [[nodiscard]] bool has_one_channel() const { return channels_ == 1; }
   [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
+  /// Whether a steady state may be at a kink or a jump: then nothing is linear to first order.
+  [[nodiscard]] bool may_rest_at_kink() const { return may_rest_at_kink_; }
 
  private:
   /// With a name of its own, or that of the exact number that it is.
@@ -118,6 +124,8 @@ class LinearFrame {
   void limit(int x, const Ball& low, const Ball& high);
   [[nodiscard]] LinearValue scaled(const LinearValue& x, int constant) const;
   [[nodiscard]] LinearValue product_of_plain(int x, int y);
+  void note_distance(const Ball& distance);
+  [[nodiscard]] int difference(int x, int y) { return sum(x, negated(y)); }
   [[nodiscard]] LinearValue value_of_function(const std::string& name, int x);
 
   std::size_t states_, channels_;
@@ -128,6 +136,7 @@ class LinearFrame {
   std::map<std::string, std::size_t> input_names_;
   std::vector<FrameInput> inputs_;
   std::vector<FrameLimit> limits_;
+  bool may_rest_at_kink_ = false;
 };
 
 /// Throws NotCovered where a value is not plain.

@@ -9,10 +9,12 @@
 namespace veritrack::test {
 
 enum class Detector {
-  arctangent2,  ///< atan2(q, i)
-  arctangent,   ///< atan(q / i)
-  sine,         ///< q
-  normalised    ///< q / sqrt(i^2 + q^2)
+  arctangent2,   ///< atan2(q, i)
+  arctangent,    ///< atan(q / i)
+  sine,          ///< q
+  normalised,    ///< q / sqrt(i^2 + q^2)
+  knee,          ///< half of e and half of clamp(e, -kp, kp), e = atan2(q, i)
+  four_quarters  ///< sign(i) q - sign(q) i: at rest an eighth of a turn away
 };
 
 /// e of the samples turned back by theta; theta' = theta + w + kp e, w' = w + ki e. States theta, w.
@@ -38,6 +40,18 @@ inline ExampleTracker two_channel_loop(double kp, double ki, Detector detector) 
   } else if (detector == Detector::normalised) {
     const int squares = step.append(Operation::add, product(i, i), product(q, q));
     e = step.append(Operation::divide, q, step.append(Operation::sqrt, squares));
+  }
+  if (detector == Detector::knee) {
+    const int whole = step.append(Operation::atan2, q, i);
+    const int low = step.append(Operation::negate, proportional);
+    const int sum =
+        step.append(Operation::add, whole, step.append(Operation::clamp, whole, low, proportional));
+    const int two =
+        step.append(Operation::divide, step.append(Operation::add, proportional, proportional), proportional);
+    e = step.append(Operation::divide, sum, two);
+  } else if (detector == Detector::four_quarters) {
+    e = step.append(Operation::subtract, product(step.append(Operation::sign, i), q),
+                    product(step.append(Operation::sign, q), i));
   }
   step.add_result(
       step.append(Operation::add, step.append(Operation::add, theta, w), product(proportional, e)));

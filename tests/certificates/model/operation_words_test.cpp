@@ -72,11 +72,10 @@ TEST_CASE("units are those of states, and do not contradict their use") {
 
 TEST_CASE("every operation that may be undefined has words with its formula and line") {
   const rigor::UpwardRounding upward;
-  const Design design = read_design(
-      loop_with(
-          "e      = -2*y*sin(theta + w)\n",
-          "d = y - 2\ne = -2*stays_within(y, -3, 3)*sin(theta + w)/d + 0*sqrt(w)*log(4 + y)*acos(y/2)\n"),
-      "loop.toml");
+  const Design design = read_design(loop_with("e      = -2*y*sin(theta + w)\n",
+                                              "d = y - 2\ne = -2*stays_within(y, -3, 3)*sin(theta + w)/d + "
+                                              "0*sqrt(w)*log(4 + y)*acos(y/2) + 0*sign(y)*if(y > w, 1, 0)\n"),
+                                    "loop.toml");
   const ModelTables& tables = model_tables(design);
   const Model model = make_model(tables.model, tables.assume.signal);
   const std::vector<std::string> words = objections_to_operations(model);
@@ -86,6 +85,8 @@ TEST_CASE("every operation that may be undefined has words with its formula and 
   };
   CHECK(has("the denominator d (line 13) may vanish"));
   CHECK(has("y (line 13) may leave the limits of stays_within, -3 and 3"));
+  CHECK(has("y (line 13), at whose 0 sign jumps, may change its sign"));
+  CHECK(has("y - w (line 13), at whose 0 a condition jumps, may change its sign"));
   CHECK(has("what the root is taken of, w (line 13), may be 0 or less"));
   CHECK(has("what the logarithm is taken of, 4 + y (line 13), may be 0 or less"));
   CHECK(has("the argument of acos, y/2 (line 13), may reach 1 or -1"));

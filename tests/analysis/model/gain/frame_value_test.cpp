@@ -9,6 +9,7 @@
 
 #include "analysis/rigor/rounding.hpp"
 #include "tests/support/random.hpp"
+#include "trackers/model/piecewise.hpp"
 
 namespace veritrack::model {
 namespace {
@@ -119,6 +120,54 @@ TEST_CASE("every formula stays within its line, its noise and its remainders") {
   check(
       [](const auto& v) { return atan2(sin(atan2(v.y2, v.y1) - v.theta), cos(atan2(v.y2, v.y1) - v.theta)); },
       1.0, 0.5);
+}
+
+// Of numbers, and of values by argument-dependent lookup.
+using trackers::detail::minimum, trackers::detail::maximum, trackers::detail::absolute,
+    trackers::detail::sign_of, trackers::detail::clamped, trackers::detail::chosen;
+
+TEST_CASE("functions with kinks stay within their remainders, idle or not") {
+  for (const double size : {0.01, 0.1, 0.3, 0.6, 1.5}) {
+    CAPTURE(size);
+    // w is 0.4, theta is theta, k is 0.3 and l 0.7.
+    check([](const auto& v) { return clamped(v.w, v.k, v.l); }, size, 0.0);
+    check([](const auto& v) { return clamped(v.w, -v.l, v.k); }, size, 0.0);
+    check([](const auto& v) { return clamped(v.w, v.l, v.l + v.l); }, size, 0.0);
+    check([](const auto& v) { return clamped(v.w - v.l, -v.k, v.k); }, size, 0.0);
+    check([](const auto& v) { return clamped(quadrature(v), -v.k, v.l); }, 0.5 * size, 0.5 * size);
+    check([](const auto& v) { return v.k * clamped(v.l * quadrature(v), -v.w, v.w + v.w); }, 0.5 * size,
+          0.4 * size);
+    check([](const auto& v) { return minimum(v.w, v.l) + maximum(v.w, v.k); }, size, 0.0);
+    check([](const auto& v) { return minimum(v.w, v.k) - maximum(v.w, v.l); }, size, 0.0);
+    check([](const auto& v) { return minimum(v.w, in_phase(v)); }, 0.5 * size, 0.2 * size);
+    check([](const auto& v) { return absolute(v.w) + absolute(v.k - v.w) * v.l; }, size, 0.0);
+    check([](const auto& v) { return absolute(quadrature(v)); }, 0.5 * size, 0.5 * size);
+    check([](const auto& v) { return absolute(in_phase(v)); }, 0.5 * size, 0.3 * size);
+  }
+  // Signs and conditions: as long as their limits are kept.
+  check([](const auto& v) { return sign_of(in_phase(v)) * quadrature(v); }, 0.3, 0.3);
+  check([](const auto& v) { return chosen(v.k - v.w, exp(v.w), v.w * v.w); }, 0.05, 0.0);
+}
+
+TEST_CASE("a sign or a condition is a limit, and none at its jump or of what turns") {
+  const rigor::UpwardRounding upward;
+  Setting setting;
+  const auto& v = setting.values;
+  (void)sign_of(in_phase(v));
+  REQUIRE(setting.frame.limits().size() == 1);
+  CHECK(setting.frame.limits()[0].room == doctest::Approx(kAmplitude));
+  (void)chosen(v.w - v.k, v.k, v.w);
+  REQUIRE(setting.frame.limits().size() == 2);
+  CHECK(setting.frame.limits()[1].room == doctest::Approx(0.1));
+  CHECK_THROWS_AS((void)sign_of(quadrature(v)), NoFrame);
+  CHECK_THROWS_AS((void)sign_of(v.theta), NoFrame);
+  CHECK_THROWS_AS((void)absolute(v.y1), NoFrame);
+  CHECK_THROWS_AS((void)clamped(v.theta, v.k, v.l), NoFrame);
+  CHECK_THROWS_AS((void)chosen(v.theta, v.k, v.l), NoFrame);
+  CHECK_THROWS_AS((void)clamped(v.w, v.l, v.k), NoFrame);  // limits upside down
+  CHECK_FALSE(setting.frame.may_rest_at_kink());
+  (void)absolute(quadrature(v));
+  CHECK(setting.frame.may_rest_at_kink());
 }
 
 TEST_CASE("an arc tangent of both parts has no remainder, and a limit of half a turn") {

@@ -132,6 +132,75 @@ TEST_CASE("runs from random starts with random noise stay within the bounds of e
   CHECK(bounds->from_block.back() < 0.7 * bounds->for_ever);
 }
 
+TEST_CASE("a clamp that does not act costs nothing, and one that acts is a remainder that no run passes") {
+  const double kp = 0.1;
+  const Bounded made(kp, 0.004, Detector::knee);
+  const Bounded linear(kp, 0.004, Detector::arctangent2);
+  const auto bounds_at = [](const Bounded& loop, double noise, const std::vector<double>& start) {
+    const rigor::UpwardRounding upward;
+    return loop.gains.bounds({noise, 0.0, start});
+  };
+  const auto idle = bounds_at(made, 0.02, {});
+  REQUIRE(idle.has_value());
+  CHECK(idle->for_ever == doctest::Approx(bounds_at(linear, 0.02, {})->for_ever).epsilon(1e-12));
+  const auto with = [&](double noise) { return bounds_at(made, noise, {}); };
+  double acting = 0.03;
+  while (with(acting * 1.02)) {
+    acting *= 1.02;
+  }
+  // The noise alone passes the limit, and some more is tolerated.
+  CHECK(acting > 0.05);
+  CHECK(with(acting)->for_ever > 1.01 * bounds_at(linear, acting, {})->for_ever);
+  MESSAGE("certified up to noise " << acting);
+  for (const double noise : {0.5 * acting, acting}) {
+    for (const double omega : {-0.7, 0.0, 0.3}) {
+      CHECK(attack_loop(made.loop.tone, made.steady, omega, noise, 0.0, 4096) <=
+            with(noise)->for_ever * (1.0 + 1e-11));
+    }
+  }
+  const std::vector<double> start{0.04, 0.0005};
+  const double noise = 0.6 * acting;
+  const auto bounds = bounds_at(made, noise, start);
+  REQUIRE(bounds.has_value());
+  test::Random random(37006);
+  for (std::int64_t run = 0; run < test::effort(100); ++run) {
+    const double omega = random.uniform(-1.0, 1.0);
+    double phase = random.uniform(0.0, 6.0);
+    Eigen::Vector2d state(phase + omega + (random.below(2) == 0 ? 0.04 : -0.04),
+                          omega + (random.below(2) == 0 ? 0.0005 : -0.0005));
+    const double side = random.below(2) == 0 ? 1.0 : -1.0;
+    for (int k = 0; k < 4096; ++k) {
+      CHECK(std::fabs(state(1) - omega) <=
+            bounds->from_block[static_cast<std::size_t>(k / 64)] * (1.0 + 1e-11));
+      phase += omega;
+      // Noise across the signal, mostly to one side.
+      const double across = random.below(8) == 0 ? -side : side;
+      const std::complex<double> sample = std::polar(1.0, phase) * std::complex<double>(1.0, across * noise);
+      state = made.loop.tone.step.next(state, Eigen::Vector2d(sample.real(), sample.imag()));
+    }
+  }
+}
+
+TEST_CASE("a detector of signs is linear while none of them changes, and at rest an eighth of a turn away") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.1, 0.004, Detector::four_quarters));
+  const StartState eighth = [](double omega) {
+    return std::vector<double>{omega - std::numbers::pi / 4.0, omega};
+  };
+  const std::vector<SteadyValue> steady = proposed_steady_state(loop.model, eighth, -1.0, 1.0).value();
+  CHECK(steady[0].constant == doctest::Approx(-std::numbers::pi / 4.0));
+  const GainBounds gains = GainBounds::make(loop_network(loop.model, steady, kBand), 4096, 64).value();
+  const auto bounds = gains.bounds({0.1, 0.0, {}});
+  REQUIRE(bounds.has_value());
+  CHECK_FALSE(gains.bounds({0.71, 0.0, {}}).has_value());  // noise alone changes a sign
+  for (const double omega : {-0.7, 0.0, 0.3}) {
+    const double reached = attack_loop(loop.tone, steady, omega, 0.1, 0.0, 4096);
+    CHECK(reached <= bounds->for_ever * (1.0 + 1e-11));
+    CHECK(reached >= 0.6 * bounds->long_run);
+  }
+  CHECK_THROWS_AS((void)loop_network(loop.model, {{1, 0.0, 1.0}, {0, 0.0, 1.0}}, kBand), NoFrame);
+}
+
 TEST_CASE("a wrong steady state makes bounds longer by what it is wrong, or none") {
   const rigor::UpwardRounding upward;
   const test::TwoChannelExample loop(test::two_channel_loop(0.1, 0.004, Detector::sine));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/piecewise.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::certificates::language {
@@ -89,6 +90,40 @@ TEST_CASE("parameters are enclosed, and computed as they are written") {
   CHECK_THROWS_WITH_AS(refused("k"), "unknown name k; allowed: numbers", LanguageError);
 }
 
+TEST_CASE("functions with kinks and jumps are those of their names, at and off the kink") {
+  const auto value = [](const std::string& text, double s, double t) {
+    const rigor::UpwardRounding scope;
+    const CompiledProgram compiled = step("s' = " + text + "\nt' = t");
+    const auto constants = static_cast<std::size_t>(compiled.program.inputs()) - 3;
+    std::vector<double> inputs{3.0};
+    for (std::size_t i = 1; i < constants; ++i) {
+      inputs.push_back(static_cast<double>(i));  // literals are written in this order
+    }
+    inputs.insert(inputs.end(), {s, t, 0.0});
+    std::vector<double> registers;
+    std::vector<double> results(2);
+    compiled.program.run(std::span<const double>(inputs), registers, std::span(results));
+    return results[0];
+  };
+  for (const double s : {-2.5, -1.0, -0.0, 0.0, 0.5, 1.0, 2.0, 7.0}) {
+    for (const double t : {-1.0, 0.0, 1.0, 2.0}) {
+      CAPTURE(s);
+      CAPTURE(t);
+      CHECK(value("min(s, t)", s, t) == std::min(s, t));
+      CHECK(value("max(s, t)", s, t) == std::max(s, t));
+      CHECK(value("abs(s - t)", s, t) == std::abs(s - t));
+      CHECK(value("sign(s)", s, t) == (s > 0 ? 1 : s < 0 ? -1 : 0));
+      CHECK(value("clamp(s, 1, 2)", s, t) == std::clamp(s, 1.0, 2.0));
+      CHECK(value("if(s < t, 1, 2)", s, t) == (s < t ? 1 : 2));
+      CHECK(value("if(s <= t, 1, 2)", s, t) == (s <= t ? 1 : 2));
+      CHECK(value("if(s > t, 1, 2)", s, t) == (s > t ? 1 : 2));
+      CHECK(value("if(s >= t, 1, 2)", s, t) == (s >= t ? 1 : 2));
+    }
+  }
+  // Operations of the branch that is not taken need not be defined.
+  CHECK(value("if(t > s, log(s), 1)", -1.0, -2.0) == 1.0);
+}
+
 TEST_CASE("a line that nothing needs is an error, and a limit has to be shown wherever it stands") {
   CHECK(
       message("s' = s\nu = log(-1 - s)\nt' = t") ==
@@ -145,10 +180,17 @@ TEST_CASE("what cannot be understood is told with its place and with what is all
         "3:1: u' is no next value of a state; nearest state: s; allowed: s, t");
   CHECK(message("s' = s\nt' = t\npi = 3") == "3:1: pi is the circle constant; allowed: another name");
   CHECK(message("s' = atan2(s)\nt' = t") == "1:6: atan2 has 1 arguments; allowed: 2");
-  CHECK(message("s' = max(s, 0)\nt' = t") ==
-        "1:6: max is not smooth; allowed here: stays_within(x, low, high), which is x, if max never acts in "
-        "lock (it "
-        "is proved then that low < x < high)");
+  CHECK(message("s' = max(s)\nt' = t") == "1:6: max has 1 arguments; allowed: 2");
+  CHECK(message("s' = sgn(s)\nt' = t") ==
+        "1:6: unknown function sgn; allowed: sign(x), which is 1, -1, or 0 at 0");
+  CHECK(message("s' = floor(s)\nt' = t").starts_with("1:6: floor rounds, which cannot be certified"));
+  CHECK(message("s' = if(s, s, t)\nt' = t") ==
+        "1:9: the first argument of if is no condition; allowed: x < y, x <= y, x > y, x >= y");
+  CHECK(message("s' = if(s < t, s > t, t)\nt' = t") ==
+        "1:16: a condition with > that is no first argument of if; allowed: if(x > y, a, b)");
+  CHECK(message("s' = sqrt(s < t)\nt' = t").starts_with("1:11: a condition with < that is no first"));
+  CHECK(message("s' = wrap(s < t)\nt' = t").starts_with("1:11: a condition with < that is no first"));
+  CHECK(message("s' = s\nt' = t\nmin = s").starts_with("3:1: min is a function"));
   CHECK(
       message("s' = sine(s)\nt' = t").starts_with("1:6: unknown function sine; nearest: sin; allowed: sqrt"));
   CHECK(message("s' = pow(s, 2)\nt' = t").starts_with("1:6: pow is unknown; allowed: x^n"));

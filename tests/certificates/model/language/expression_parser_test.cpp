@@ -11,7 +11,7 @@ namespace {
 
 /// The tree with a pair of parentheses for each operation.
 std::string tree(const Expression& expression) {
-  constexpr std::array kNames{"", "", "minus", "+", "-", "*", "/", "^", ""};
+  constexpr std::array kNames{"", "", "minus", "+", "-", "*", "/", "^", "", ""};
   if (expression.operands.empty()) {
     return expression.text;
   }
@@ -48,18 +48,32 @@ TEST_CASE("operators bind as in C, a power before a sign") {
   is("1.5e-3", "1.5e-3");
 }
 
-TEST_CASE("a condition is told what to write in its place") {
-  for (const char* text : {"x > 0 ? a : b", "(x < 0)*a", "if x > 0", "a if b else c", "x == 2", "x && y"}) {
+TEST_CASE("a condition compares two formulas, as the first argument of if") {
+  const auto is = [](const char* text, const char* expected) {
+    CHECK(tree(parse_expression({text, {1, 1}})) == expected);
+  };
+  is("if(x + 1 < 2*y, a, b)", "(if (< (+ x 1) (* 2 y)) a b)");
+  is("1 + if(-x>=y^2, if(a <= 0, 1, 2), b - c)",
+     "(+ 1 (if (>= (minus x) (^ y 2)) (if (<= a 0) 1 2) (- b c)))");
+  is("if ( x # why\n > 0 , a,\n b )", "(if (> x 0) a b)");
+}
+
+TEST_CASE("a condition in the manner of another language is told what to write in its place") {
+  for (const char* text : {"x > 0 ? a : b", "(x < 0)*a", "if x > 0", "a if b else c", "x && y",
+                           "if(x > 0 && y, a, b)", "if(a < b < c, 1, 0)", "if(x > 0 then a else b)"}) {
     CAPTURE(text);
     CHECK(message(parse_expression, text)
-              .find("a condition is not smooth: for a limit that never acts in "
-                    "lock write stays_within(x, low, high)") != std::string::npos);
+              .find("a condition is written if(x > y, a, b), which is a where x > y") != std::string::npos);
   }
-  CHECK(message(parse_definitions, "a = b\nw' = if a > 0 then a else b").find("stays_within") !=
+  for (const char* text : {"x == 2", "if(x == 2, a, b)", "if(x != 2, a, b)"}) {
+    CAPTURE(text);
+    CHECK(message(parse_expression, text).find("write x < y, x <= y, x > y or x >= y") != std::string::npos);
+  }
+  CHECK(message(parse_definitions, "a = b\nw' = if a > 0 then a else b").find("if(x > y, a, b)") !=
         std::string::npos);
   for (const char* text : {"x $ 2", "gif 2", "2 +", "x y"}) {
     CAPTURE(text);
-    CHECK(message(parse_expression, text).find("stays_within") == std::string::npos);
+    CHECK(message(parse_expression, text).find("if(x > y") == std::string::npos);
   }
 }
 

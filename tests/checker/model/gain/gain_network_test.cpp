@@ -73,6 +73,9 @@ bool covers(const Loop& loop, const Step& step, double noise, const State& size)
         bound += form.row[i].near() * xi[i];
       }
       bound = std::abs(bound);
+      for (std::size_t i = 0; i < n; ++i) {
+        bound += form.row[i].radius().upper_double() * std::abs(xi[i]);  // of the amplitudes
+      }
       for (const auto& [input, factor] : form.direct) {
         learn(input + 1);
         bound +=
@@ -193,6 +196,55 @@ TEST_CASE("detectors of many kinds are covered, with amplitudes in a range") {
                             return e / (1 + x[1] * x[1]) + std::tan(e / 3) - std::acos(e / 5) + kPi / 2;
                           }));
   }
+}
+
+TEST_CASE("functions with kinks are covered, idle or not, and with limits that move") {
+  const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
+  Loop range = loop_with("");
+  range.least_amplitude = 0.8;
+  range.largest_amplitude = 1.3;
+  for (const Loop& loop : {loop_with(""), range}) {
+    for (const double size : {0.05, 0.2, 0.5}) {
+      CAPTURE(size);
+      const auto is_covered = [&](const std::string& lines, const auto& value) {
+        CAPTURE(lines);
+        CHECK(covers_detector(loop, parts + lines, value, size, size));
+      };
+      is_covered("d = clamp(s, -0.3, 0.4)",
+                 [](double r, double t, const State&) { return std::clamp(r * std::sin(t), -0.3, 0.4); });
+      is_covered("d = clamp(c, -0.3, 0.4) - 0.4", [](double r, double t, const State&) {
+        return std::clamp(r * std::cos(t), -0.3, 0.4) - 0.4;
+      });
+      is_covered("d = clamp(s + c, 1, 3) - 1", [](double r, double t, const State&) {
+        return std::clamp(r * (std::sin(t) + std::cos(t)), 1.0, 3.0) - 1;
+      });
+      is_covered("d = clamp(s, -c, c/2)", [](double r, double t, const State&) {
+        const double s = r * std::sin(t);
+        const double c = r * std::cos(t);
+        return s < -c ? -c : c / 2 < s ? c / 2 : s;
+      });
+      is_covered("d = max(s, 0.1) + min(c, s) - 0.1", [](double r, double t, const State&) {
+        const double s = r * std::sin(t);
+        return std::max(s, 0.1) + std::min(r * std::cos(t), s) - 0.1;
+      });
+      is_covered("d = abs(c) - abs(s - 0.2) - 0.8*abs(s)", [](double r, double t, const State&) {
+        const double s = r * std::sin(t);
+        return std::abs(r * std::cos(t)) - std::abs(s - 0.2) - 0.8 * std::abs(s);
+      });
+    }
+    CHECK(covers_detector(loop, parts + "d = sign(c)*s + if(c <= 0.1, 1, 0) - if(0.2 < c, 0, s)",
+                          [](double r, double t, const State&) { return r * std::sin(t); }));
+  }
+  for (const char* lines : {"d = sign(s)", "d = if(s > 0, 0.1, -0.1)", "d = clamp(s, 0.1, -0.1)",
+                            "d = abs(i)", "d = clamp(s, s, 2*s)", "d = if(phase > 0, s, c)"}) {
+    CAPTURE(lines);
+    CHECK_FALSE(loop_with(parts + lines).is_covered());
+  }
+  const auto is_at_rest = [&](const std::string& lines) {
+    return loop_with(parts + lines).network().is_at_rest;
+  };
+  CHECK(is_at_rest("d = clamp(s, -0.1, 0.1)"));
+  CHECK_FALSE(is_at_rest("d = max(s, 0) - max(-s, 0)"));
 }
 
 TEST_CASE("without noise the remainders alone cover a step") {

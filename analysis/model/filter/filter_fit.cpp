@@ -1,7 +1,9 @@
 #include "analysis/model/filter/filter_fit.hpp"
 
+#include <bit>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <utility>
 
 #include "analysis/model/steady_state/phase_grid.hpp"
@@ -9,6 +11,19 @@
 namespace veritrack::model::detail {
 
 using Eigen::MatrixXcd;
+
+namespace {
+
+double rounded_to_24_bits(double x) {
+  constexpr std::uint64_t kDropped = (std::uint64_t{1} << 29U) - 1;
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(x) + kDropped / 2 + 1) & ~kDropped);
+}
+
+}  // namespace
+
+std::complex<double> rounded_to_24_bits(std::complex<double> c) {
+  return {rounded_to_24_bits(c.real()), rounded_to_24_bits(c.imag())};
+}
 
 VectorXd triangle_of(const MatrixXd& matrix) {
   const Index n = matrix.rows();
@@ -51,9 +66,7 @@ PhaseFit fit_of(const std::array<MatrixXd, kNodes>& values, int harmonics, doubl
     constexpr double kNegligible = 1e-7;
     for (Index i = 0; i < sum.size(); ++i) {
       std::complex<double>& c = sum(i);
-      c = std::abs(c) < kNegligible * size
-              ? 0.0
-              : std::complex<double>(static_cast<float>(c.real()), static_cast<float>(c.imag()));
+      c = std::abs(c) < kNegligible * size ? 0.0 : rounded_to_24_bits(c);
     }
     fit.at(static_cast<std::size_t>(d)) = sum;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -14,10 +15,14 @@ namespace veritrack::model::detail {
 [[nodiscard]] VectorXd triangle_of(const MatrixXd& matrix);
 [[nodiscard]] MatrixXd matrix_of_triangle(const VectorXd& entries, Index n, bool is_symmetric);
 
+/// Both parts to 24 bits, a tie away from zero. Not by way of float: g++ 12 skips the pair of conversions
+/// where it puts both parts into one register.
+[[nodiscard]] std::complex<double> rounded_to_24_bits(std::complex<double> c);
+
 /// Coefficients of z^d, rows x harmonics.
 using PhaseFit = std::array<Eigen::MatrixXcd, kNodes>;
 
-/// Through values at the nodes, each rows x phases of a grid; times `scale`, rounded to single precision.
+/// Through values at the nodes, each rows x phases of a grid; times `scale`, rounded to 24 bits.
 [[nodiscard]] PhaseFit fit_of(const std::array<MatrixXd, kNodes>& values, int harmonics, double scale);
 /// A column of its values.
 [[nodiscard]] VectorXd value_of(const PhaseFit& fit, double z, double phase);

@@ -70,7 +70,7 @@ std::optional<ShapeFit> fit_shape(const TrackedTone& tone, const CurveFit& curve
       for (Index h = 0; h < sum.cols(); ++h) {
         std::complex<double>& c = sum(place, h);
         const bool is_small = std::abs(c) < kNegligible * diagonal[place % n];
-        c = is_small ? 0.0 : std::complex<double>(static_cast<float>(c.real()), static_cast<float>(c.imag()));
+        c = is_small ? 0.0 : detail::rounded_to_24_bits(c);
       }
     }
   }

@@ -46,6 +46,20 @@ struct WrittenSeries {
   }
 };
 
+TEST_CASE("both parts rounded to the nearest number of 24 bits") {
+  test::Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const std::complex<double> c(random.uniform(-1.0, 1.0), random.uniform(-1e-6, 1e3));
+    const std::complex<double> rounded = rounded_to_24_bits(c);
+    for (const auto& [before, after] :
+         {std::pair(c.real(), rounded.real()), std::pair(c.imag(), rounded.imag())}) {
+      volatile float shorter = static_cast<float>(before);
+      CHECK(after == static_cast<double>(shorter));
+    }
+  }
+  CHECK(rounded_to_24_bits({0.0, -0x1.ffffffp+0}) == std::complex<double>(0.0, -2.0));
+}
+
 TEST_CASE("a lower triangle row by row, and back") {
   const MatrixXd lower{{1.0, 0.0, 0.0}, {2.0, 3.0, 0.0}, {4.0, 5.0, 6.0}};
   const MatrixXd symmetric{{1.0, 2.0, 4.0}, {2.0, 3.0, 5.0}, {4.0, 5.0, 6.0}};

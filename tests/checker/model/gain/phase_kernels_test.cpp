@@ -1,0 +1,172 @@
+// Sums of kernels over the phases against the same sums, written out, at drawn phases and frequencies.
+#include "checker/model/gain/phase_kernels.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace veritrack::checker {
+namespace {
+
+constexpr double kTurn = 2.0 * 3.14159265358979323846;
+using Vector = std::vector<double>;
+
+/// Smooth functions of the phase, which no grid function is exactly.
+Vector form_at(double phase) {
+  return {1.0 + 0.3 * std::cos(phase), 0.4 * std::sin(2.0 * phase)};
+}
+Vector column_at(double phase) {
+  return {0.5 + 0.5 * std::sin(phase), std::cos(phase)};
+}
+Vector other_column_at(double phase) {
+  return {0.3 * std::cos(2.0 * phase), -0.2};
+}
+
+/// The values on the grid, and an error: a bound of the second derivative by interpolation.
+template <typename Function>
+GridFunction grid_of(const Function& f, std::size_t phases, double second_derivative) {
+  const double step = kTurn / static_cast<double>(phases);
+  GridFunction result;
+  for (std::size_t g = 0; g < phases; ++g) {
+    result.values.push_back(f(step * static_cast<double>(g)));
+  }
+  result.error.assign(2, second_derivative * step * step / 8.0 + 1e-12);
+  return result;
+}
+
+const Vector kMatrix = {0.9, -0.2, 0.15, 0.85};  // row by row; spectral radius 0.89
+
+PhaseLoop loop_of(std::size_t phases, double frequency, double half_width, std::size_t horizon = 256) {
+  PhaseLoop loop;
+  loop.phases = phases;
+  loop.horizon = horizon;
+  const double step = kTurn / static_cast<double>(phases);
+  loop.low = (frequency - half_width) / step - 1e-12;
+  loop.high = (frequency + half_width) / step + 1e-12;
+  loop.columns = {{{kMatrix[0], 0.0}, {kMatrix[2], 0.0}}, {{kMatrix[1], 1e-12}, {kMatrix[3], 0.0}}};
+  loop.forms = {grid_of(form_at, phases, 1.6)};
+  loop.inputs = {{grid_of(column_at, phases, 1.0), {}},
+                 {grid_of(column_at, phases, 1.0), grid_of(other_column_at, phases, 1.2)}};
+  return loop;
+}
+
+/// sum_k Z |c A^k B| at this phase and frequency; of the input of two components, the lengths.
+double written_out(const PhaseLoop& loop, std::size_t input, const Vector& sizes, double phase,
+                   double frequency) {
+  Vector row = form_at(phase);
+  double sum = 0.0;
+  for (std::size_t lag = 0; lag < 400; ++lag) {
+    const double source = phase - static_cast<double>(lag + 1) * frequency;
+    const double turns = source / kTurn;
+    const auto cell =
+        static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(loop.phases));
+    const Vector first = column_at(source);
+    const Vector second = other_column_at(source);
+    const double along = row[0] * first[0] + row[1] * first[1];
+    const double across = input == 0 ? 0.0 : row[0] * second[0] + row[1] * second[1];
+    sum += sizes[cell % loop.phases] * std::hypot(along, across);
+    row = {row[0] * kMatrix[0] + row[1] * kMatrix[2], row[0] * kMatrix[1] + row[1] * kMatrix[3]};
+  }
+  return sum;
+}
+
+/// The largest share of the bound that a sum reaches, over draws; above 1 where it is no bound.
+double largest_share(const PhaseLoop& loop, double frequency, double half_width, std::size_t input,
+                     const Vector& sizes) {
+  const PhaseKernels kernels(loop);
+  REQUIRE(kernels.is_certain());
+  const std::vector<double> bound = kernels.contribution(0, input, sizes);
+  std::mt19937 random(11);
+  double share = 0.0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double place = std::uniform_real_distribution<>(0.0, static_cast<double>(loop.phases))(random);
+    const double omega = frequency + half_width * std::uniform_real_distribution<>(-1.0, 1.0)(random);
+    const double sum =
+        written_out(loop, input, sizes, place * kTurn / static_cast<double>(loop.phases), omega);
+    share = std::max(share, sum / bound[static_cast<std::size_t>(place)]);
+  }
+  return share;
+}
+
+Vector drawn_sizes(std::size_t phases) {
+  std::mt19937 random(3);
+  Vector sizes;
+  for (std::size_t g = 0; g < phases; ++g) {
+    sizes.push_back(std::uniform_real_distribution<>(0.0, 1.0)(random));
+  }
+  return sizes;
+}
+
+}  // namespace
+
+TEST_CASE("A sum at any phase and frequency of the part is at most its bound") {
+  for (const std::size_t phases : {8U, 32U}) {
+    for (const double frequency : {0.05, 1.3, -0.7, 3.1}) {
+      for (const double half_width : {0.0, 1e-4, 0.02}) {
+        const PhaseLoop loop = loop_of(phases, frequency, half_width);
+        for (const std::size_t input : {0U, 1U}) {
+          CHECK(largest_share(loop, frequency, half_width, input, drawn_sizes(phases)) <= 1.0);
+          CHECK(largest_share(loop, frequency, half_width, input, Vector(phases, 1.0)) <= 1.0);
+          Vector one_cell(phases, 0.0);
+          one_cell[3] = 1.0;
+          CHECK(largest_share(loop, frequency, half_width, input, one_cell) <= 1.0);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("With many phases and one frequency the bound is nearly reached") {
+  const PhaseLoop loop = loop_of(256, 0.3, 0.0);
+  CHECK(largest_share(loop, 0.3, 0.0, 0, Vector(256, 1.0)) > 0.97);
+  CHECK(largest_share(loop, 0.3, 0.0, 1, Vector(256, 1.0)) > 0.97);
+}
+
+TEST_CASE("What is computed from numbers that were changed is no bound") {
+  PhaseLoop loop = loop_of(256, 0.3, 0.0);
+  for (Vector& value : loop.inputs[0].first.values) {
+    value[1] *= 0.8;
+  }
+  CHECK(largest_share(loop, 0.3, 0.0, 0, Vector(256, 1.0)) > 1.0);
+}
+
+TEST_CASE("Nothing is certain of a loop that is unstable, of a horizon that is too short, or over nothing") {
+  const auto is_certain = [](const auto& change) {
+    PhaseLoop loop = loop_of(16, 0.3, 1e-3);
+    change(loop);
+    return PhaseKernels(loop).is_certain();
+  };
+  CHECK(is_certain([](PhaseLoop&) {}));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.columns[0][0].middle = 1.2; }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.columns[0][0].radius = 0.2; }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.horizon = 2; }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.horizon = 0; }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.phases = 12; }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.phases = 32; }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.forms.clear(); }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.inputs.clear(); }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.columns.clear(); }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { std::swap(loop.low, loop.high); }));
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(is_certain([&](PhaseLoop& loop) { loop.low = none; }));
+  CHECK_FALSE(is_certain([&](PhaseLoop& loop) { loop.columns[1][0].middle = none; }));
+  CHECK_FALSE(is_certain([&](PhaseLoop& loop) { loop.forms[0].values[5][1] = none; }));
+  CHECK_FALSE(is_certain([&](PhaseLoop& loop) { loop.inputs[1].second.error[0] = none; }));
+  CHECK_FALSE(is_certain([](PhaseLoop& loop) { loop.forms[0].error[0] = -1.0; }));
+}
+
+TEST_CASE("Sizes that are no numbers, or too few, have no bound") {
+  const PhaseKernels kernels(loop_of(16, 0.3, 1e-3));
+  CHECK(std::isfinite(kernels.contribution(0, 0, Vector(16, 1.0))[7]));
+  CHECK(kernels.contribution(0, 0, Vector(16, 0.0))[7] == 0.0);
+  for (const Vector& sizes : {Vector(8, 1.0), Vector(16, std::numeric_limits<double>::quiet_NaN()),
+                              Vector(16, -1.0), Vector(16, HUGE_VAL)}) {
+    CHECK(std::isinf(kernels.contribution(0, 0, sizes)[7]));
+  }
+}
+
+}  // namespace veritrack::checker

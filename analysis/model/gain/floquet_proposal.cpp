@@ -214,6 +214,7 @@ std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, double 
   for (Eigen::Index i = 0; i < n * n; ++i) {
     cell.basis.push_back(series_of(basis, i, kNegligible));
     std::vector<double> of_z;
+    of_z.reserve(matrix.size());
     for (const Eigen::MatrixXd& each : matrix) {
       of_z.push_back(each(i / n, i % n));
     }

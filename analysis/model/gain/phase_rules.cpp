@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "analysis/model/gain/frame_value.hpp"
@@ -17,6 +18,8 @@ using trackers::Operation;
 
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// Adds factor times the slopes of x.
 void add_slopes(PhaseValue& sum, const BallModel& factor, const PhaseValue& x) {
   for (const auto& [key, slope] : x.slopes) {
@@ -29,7 +32,7 @@ void add_slopes(PhaseValue& sum, const BallModel& factor, const PhaseValue& x) {
 
 Interval range_of(const BallModel& base) {
   const Interval range = base.range();
-  return is_empty(range) ? Interval::from_bounds(-INFINITY, INFINITY) : range;
+  return is_empty(range) ? Interval::from_bounds(-kInfinity, kInfinity) : range;
 }
 
 Interval around(const Interval& base, double bound) {
@@ -38,7 +41,7 @@ Interval around(const Interval& base, double bound) {
 
 /// An upper bound, or infinity where there is none.
 double size_or_infinity(double size) {
-  return size >= 0.0 ? size : INFINITY;
+  return size >= 0.0 ? size : kInfinity;
 }
 
 /// |f(b + d) - f(b) - f'(b) d| for f = sin or cos, |f(b)| <= value and |f'(b)| <= slope.
@@ -194,7 +197,7 @@ PhaseValue PhaseRules::function(Operation operation, int exponent, int place, co
       const Interval y(bounds[form]);
       const Interval m(least);
       const Interval room = m - y;
-      return rigor::certainly_positive(room) ? (square(y) / (square(m) * room)).upper() : INFINITY;
+      return rigor::certainly_positive(room) ? (square(y) / (square(m) * room)).upper() : kInfinity;
     });
   } else if (is_power) {
     const double factor = 0.5 * exponent * (exponent - 1);
@@ -207,7 +210,7 @@ PhaseValue PhaseRules::function(Operation operation, int exponent, int place, co
     add_remainder(result, [form, base, operation](const std::vector<double>& bounds) {
       const Interval half_second = taylor_of(operation, around(base, bounds[form]))[2];
       return is_empty(half_second)
-                 ? INFINITY
+                 ? kInfinity
                  : size_or_infinity((abs(half_second) * square(Interval(bounds[form]))).upper());
     });
   }
@@ -235,12 +238,12 @@ PhaseValue PhaseRules::angle(int first, int second, const PhaseValue& y, const P
     const bool is_off_cut = rigor::certainly_positive(box_x) || rigor::certainly_positive(box_y) ||
                             rigor::certainly_negative(box_y);
     if (!is_off_cut || !(least.lower() > 0.0)) {
-      return static_cast<double>(INFINITY);
+      return kInfinity;
     }
     const Interval q =
         sqrt(square(Interval(bounds[a])) + square(Interval(bounds[b]))) / Interval(least.lower());
     const Interval rest = Interval(1.0) - q;
-    return rigor::certainly_positive(rest) ? size_or_infinity((-log(rest) - q).upper()) : INFINITY;
+    return rigor::certainly_positive(rest) ? size_or_infinity((-log(rest) - q).upper()) : kInfinity;
   });
   return result;
 }
@@ -258,7 +261,7 @@ PhaseValue PhaseRules::within(int place, const PhaseValue& x, const PhaseValue& 
   // A remainder of size 0 where the limits are kept.
   add_remainder(result, [=](const std::vector<double>& bounds) {
     const Interval box = has_form ? around(base, bounds[form]) : base;
-    return rigor::certainly_less(below, box) && rigor::certainly_less(box, above) ? 0.0 : INFINITY;
+    return rigor::certainly_less(below, box) && rigor::certainly_less(box, above) ? 0.0 : kInfinity;
   });
   return result;
 }

@@ -13,7 +13,6 @@ namespace veritrack::model {
 using rigor::BallModel;
 using rigor::Interval;
 using trackers::Instruction;
-using trackers::Operation;
 
 namespace {
 
@@ -145,7 +144,7 @@ class Inverse {
   Inverse(std::vector<BallModel> basis, std::size_t n) : n_(n), a_(std::move(basis)) {}
 
   /// Solves for all right sides at once, in place.
-  void solve(std::vector<std::vector<BallModel>*> sides) {
+  void solve(const std::vector<std::vector<BallModel>*>& sides) {
     for (std::size_t p = 0; p < n_; ++p) {
       std::size_t pivot = p;
       for (std::size_t i = p + 1; i < n_; ++i) {

@@ -41,7 +41,10 @@ Interval around(const Interval& base, double bound) {
 
 /// An upper bound, or infinity where there is none.
 double size_or_infinity(double size) {
-  return size >= 0.0 ? size : kInfinity;
+  if (size >= 0.0) {
+    return size;
+  }
+  return kInfinity;  // not a number
 }
 
 /// |f(b + d) - f(b) - f'(b) d| for f = sin or cos, |f(b)| <= value and |f'(b)| <= slope.

@@ -42,6 +42,8 @@ class Repeats {
   friend Repeats arctangent2(const Repeats& y, const Repeats& x) { return (y / x).function(); }
   friend Repeats stays_within(const Repeats& x, const Repeats& /*low*/, const Repeats& /*high*/) { return x; }
   friend Repeats larger(const Repeats& x, const Repeats& y) { return (x + y).function(); }
+  /// As x^2: it does not see a sign.
+  friend Repeats absolute(const Repeats& x) { return x.function(); }
   friend Repeats clamped(const Repeats& x, const Repeats& low, const Repeats& high) {
     return (x + low + high).function();
   }

@@ -31,6 +31,12 @@ inline bool is_choice(const std::string& name) {
   return name == "if <" || name == "if <=" || name == "if >" || name == "if >=";
 }
 
+/// |x|, by the larger of x and -x where a scalar has nothing of its own.
+template <typename Scalar>
+Scalar absolute(const Scalar& x) {
+  return larger(x, Scalar(-x));
+}
+
 /// The value of min, max, abs, sign, clamp or if, the latter of x - y, a and b; or nothing for other
 /// functions.
 template <typename Scalar>
@@ -43,7 +49,7 @@ std::optional<Scalar> value_of_piecewise(const std::string& name, const std::vec
     return Scalar(-larger(Scalar(-arguments[0]), Scalar(-arguments[1])));
   }
   if (name == "abs" && count == 1) {
-    return larger(arguments[0], Scalar(-arguments[0]));
+    return absolute(arguments[0]);
   }
   if (name == "sign" && count == 1) {
     return sign_of(arguments[0]);

@@ -101,7 +101,9 @@ FrameLine inside(Frame& frame, const FrameLine& x, const FrameLine& low, const F
     return with_remainder(
         frame, x, kWhat,
         [first, second, a = to_low.lower(), b = to_high.lower()](const std::vector<double>& bounds) {
-          return std::max(beyond(bounds[first], a), beyond(bounds[second], b));
+          const double low_side = beyond(bounds[first], a);
+          const double high_side = beyond(bounds[second], b);
+          return low_side >= high_side ? low_side : low_side < high_side ? high_side : NAN;
         });
   }
   if (!low.is_constant() || !high.is_constant() ||

@@ -1,6 +1,5 @@
 #include "analysis/model/gain/grid_function.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -56,14 +55,14 @@ GridFunction grid_function(std::size_t components, std::size_t phases, const Mod
           Interval(c[0]) - Interval(c[1]) + Interval(c[2]) - Interval(c[3]) + Interval(c[4]);
       const Interval end_right =
           Interval(c[0]) + Interval(c[1]) + Interval(c[2]) + Interval(c[3]) + Interval(c[4]);
-      const double ends = std::max(rigor::magnitude(end_left - Interval(left)),
-                                   rigor::magnitude(end_right - Interval(right)));
+      const double ends = larger_or_nan(rigor::magnitude(end_left - Interval(left)),
+                                        rigor::magnitude(end_right - Interval(right)));
       const double bend = std::fabs(c[2]) + 0.385 * std::fabs(c[3]) + std::fabs(c[4]);
       const double error = bend + cells[g].rest + ends;
-      f.error[i] = error <= f.error[i] ? f.error[i] : error;  // NaN stays
-      f.largest[i] = std::max(f.largest[i], std::fabs(left));
+      f.error[i] = larger_or_nan(f.error[i], error);
+      f.largest[i] = larger_or_nan(f.largest[i], std::fabs(left));
       f.first_difference[i] =
-          std::max(f.first_difference[i], rigor::magnitude(Interval(right) - Interval(left)));
+          larger_or_nan(f.first_difference[i], rigor::magnitude(Interval(right) - Interval(left)));
       f.second_difference[i] =
           std::max(f.second_difference[i],
                    rigor::magnitude(Interval(right) - Interval(2.0) * Interval(left) + Interval(before)));

@@ -1,6 +1,7 @@
 // Functions of the phase on a grid (docs/gain-proof.md, section 10).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -15,6 +16,11 @@ struct GridFunction {
   std::vector<double> error;                ///< by component: the distance from it, for all frequencies
   std::vector<double> largest, first_difference, second_difference;  ///< by component
 };
+
+/// The larger one; NaN where one of them is.
+[[nodiscard]] inline double larger_or_nan(double a, double b) {
+  return a >= b ? a : a < b ? b : NAN;
+}
 
 /// The model of a component over a cell of phases: s goes from one point of the grid to the next.
 using ModelAt = std::function<const rigor::BallModel&(std::size_t cell, std::size_t component)>;

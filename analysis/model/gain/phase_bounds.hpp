@@ -34,7 +34,6 @@ class PhaseLoop {
 
   /// For noise of at most this size, from starts in the steady state. Empty where no bound closes.
   [[nodiscard]] std::optional<PhaseErrors> errors(double noise) const;
-  [[nodiscard]] const std::vector<std::vector<rigor::Interval>>& matrix() const { return matrix_; }
 
  private:
   using Bounds = std::vector<std::vector<double>>;  ///< by cell of phases, by form

@@ -194,6 +194,21 @@ class Inverse {
   std::vector<BallModel> a_;
 };
 
+/// A remainder by which a result still has a slope is an input with a column, whatever its gate was: a wrong
+/// gate costs room and never correctness.
+void add_open_remainders(const std::vector<PhaseValue>& results, std::size_t states, PhaseStep& step) {
+  for (const PhaseValue& each : results) {
+    for (const auto& slope : each.slopes) {
+      const int input = slope.first - static_cast<int>(states);
+      const bool is_known = input < 0 || step.inputs[static_cast<std::size_t>(input)].is_noise ||
+                            std::find(step.gates.begin(), step.gates.end(), input) != step.gates.end();
+      if (!is_known) {
+        step.gates.push_back(input);
+      }
+    }
+  }
+}
+
 PhaseValue constant_value(const Interval& constant) {
   return {BallModel(constant), {}};
 }
@@ -234,6 +249,8 @@ PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const
   step.bias = error.front().base;
   run.rules().form_of(error.front());
 
+  add_open_remainders(next, n, step);
+
   // In the basis at the end of the step.
   const auto slopes_by = [&](int key) {
     std::vector<BallModel> column;
@@ -247,18 +264,12 @@ PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const
   for (std::size_t j = 0; j < n; ++j) {
     by_state.push_back(slopes_by(static_cast<int>(j)));
   }
-  std::vector<std::vector<BallModel>> units(n, std::vector<BallModel>(n));
-  for (std::size_t j = 0; j < n; ++j) {
-    units[j][j] = BallModel(1.0);
-  }
   for (std::size_t i = 0; i < n; ++i) {
     step.residual.push_back(next[i].base - there[i]);
   }
   std::vector<std::vector<BallModel>*> sides{&step.residual};
-  for (auto* list : {&by_state, &units}) {
-    for (auto& column : *list) {
-      sides.push_back(&column);
-    }
+  for (auto& column : by_state) {
+    sides.push_back(&column);
   }
   for (std::size_t c = 0; c < channels; ++c) {
     sides.push_back(&(step.columns[static_cast<int>(c)] = slopes_by(static_cast<int>(n + c))));
@@ -271,7 +282,6 @@ PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       step.matrix[i][j] = by_state[j][i];
-      step.inverse_sizes.push_back(abs(units[j][i].range()));
     }
   }
   return step;

@@ -45,12 +45,11 @@ struct PhaseInput {
 /// The step over a cell. Inputs are numbered as they arise: first the components of the noise.
 struct PhaseStep {
   std::vector<PhaseInput> inputs;
-  std::vector<PhaseForm> forms;                       ///< the last one is the frequency error
-  std::vector<int> gates;                             ///< inputs that have columns, the noise not among them
-  std::vector<std::vector<rigor::BallModel>> matrix;  ///< rows, in the basis
+  std::vector<PhaseForm> forms;                          ///< the last one is the frequency error
+  std::vector<int> gates;                                ///< remainders, gathered or alone, that have columns
+  std::vector<std::vector<rigor::BallModel>> matrix;     ///< rows, in the basis
   std::map<int, std::vector<rigor::BallModel>> columns;  ///< of noise and gates
   std::vector<rigor::BallModel> residual;                ///< in the basis
-  std::vector<rigor::Interval> inverse_sizes;            ///< |P^-1|, row by row: at the end of the step
   rigor::BallModel bias;                                 ///< the frequency error on the curve, rad/sample
 };
 

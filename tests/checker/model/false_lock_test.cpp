@@ -56,6 +56,9 @@ TEST_CASE("a detector that does not see half a turn has a false lock at half the
   CHECK(degree("w + k*atan2(2*sin(theta)*cos(theta), cos(theta)^2 - sin(theta)^2)") >= 2.0);
   CHECK(degree("w + k*sqrt(sin(theta)^2) + k*sqrt(cos(theta)^2)") >= 4.0);
   CHECK(degree("w + k*sin(3*sin(theta))") >= 2.0);
+  // |x| does not see a sign, and is no more than a function of x.
+  CHECK(degree("w + k*abs(sin(theta))") >= 2.0);
+  CHECK(is(degree("w + k*abs(tan(theta))"), degree("w + k*sqrt(tan(theta))")));
   // A turn of w is half a turn of the frequency.
   CHECK(is(degree("w + k*y1*sin(theta + w)", "w/2"), 2.0));
   CHECK(is(degree("w + k*y1*sin(theta + w)", "2*w"), 2.0));

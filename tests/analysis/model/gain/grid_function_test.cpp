@@ -53,10 +53,13 @@ TEST_CASE("a function of the phase is within its error of the polygon through it
 
 TEST_CASE("an unknown model has an error that bounds nothing") {
   const rigor::BallModelScope scope(0, 0);
-  const std::vector<BallModel> cells{BallModel(1.0), BallModel(rigor::Interval::empty())};
-  const model::GridFunction f =
-      model::grid_function(1, 2, [&](std::size_t g, std::size_t) -> const BallModel& { return cells[g]; });
-  CHECK_FALSE(f.error[0] < INFINITY);
+  const BallModel known(1.0), unknown(rigor::Interval::empty());
+  for (const auto& cells : {std::vector{known, unknown, known}, std::vector{unknown, known, known},
+                            std::vector{known, known, unknown}}) {
+    const model::GridFunction f =
+        model::grid_function(1, 3, [&](std::size_t g, std::size_t) -> const BallModel& { return cells[g]; });
+    CHECK_FALSE(f.error[0] < INFINITY);
+  }
 }
 
 }  // namespace veritrack

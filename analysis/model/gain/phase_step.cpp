@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/model/gain/basis_inverse.hpp"
 #include "analysis/model/gain/frame_value.hpp"
+#include "analysis/model/gain/phase_gates.hpp"
 #include "analysis/model/gain/phase_rules.hpp"
 #include "analysis/rigor/elementary.hpp"
 
@@ -15,50 +17,6 @@ using rigor::Interval;
 using trackers::Instruction;
 
 namespace {
-
-/// For each register the last value before the exit through which all that it does to the results passes;
-/// -1 of a register that does nothing.
-std::vector<int> gates_of(const trackers::StraightLineProgram& program) {
-  const int registers = program.registers();
-  const int exit = registers;
-  std::vector<std::vector<int>> users(static_cast<std::size_t>(registers));
-  for (const int result : program.results()) {
-    users[static_cast<std::size_t>(result)].push_back(exit);
-  }
-  for (int i = 0; i < registers - program.inputs(); ++i) {
-    const Instruction& each = program.instructions()[static_cast<std::size_t>(i)];
-    for (const int operand : {each.first, each.second, each.third}) {
-      if (operand >= 0) {
-        users[static_cast<std::size_t>(operand)].push_back(program.inputs() + i);
-      }
-    }
-  }
-  // Immediate post-dominators, from the last register on; users come later.
-  std::vector<int> next(static_cast<std::size_t>(registers) + 1, -1);
-  next[static_cast<std::size_t>(exit)] = exit;
-  for (int r = registers - 1; r >= 0; --r) {
-    int common = -1;
-    for (int user : users[static_cast<std::size_t>(r)]) {
-      if (next[static_cast<std::size_t>(user)] < 0) {
-        continue;  // does nothing
-      }
-      while (common >= 0 && common != user) {
-        int& earlier = common < user ? common : user;
-        earlier = next[static_cast<std::size_t>(earlier)];
-      }
-      common = user;
-    }
-    next[static_cast<std::size_t>(r)] = common;
-  }
-  std::vector<int> gates(static_cast<std::size_t>(registers), -1);
-  for (int r = registers - 1; r >= 0; --r) {
-    const int after = next[static_cast<std::size_t>(r)];
-    gates[static_cast<std::size_t>(r)] = after == exit ? r
-                                         : after < 0   ? -1
-                                                       : gates[static_cast<std::size_t>(after)];
-  }
-  return gates;
-}
 
 /// Runs programs over values with slopes.
 class PhaseRun {
@@ -131,68 +89,17 @@ class PhaseRun {
   PhaseRules rules_;
 };
 
-std::vector<BallModel> basis_at(const FloquetCell& cell, const BallModel& phase, const BallModel& z) {
+/// The basis as a curve, row by row.
+Tube curve_of_basis(const FloquetCell& cell) {
   Tube series;
   series.turns.assign(cell.basis.size(), 0);
   series.curve = cell.basis;
-  return tube_at(series, phase, z).curve;
+  return series;
 }
 
-/// P^-1 applied to vectors, by elimination.
-class Inverse {
- public:
-  Inverse(std::vector<BallModel> basis, std::size_t n) : n_(n), a_(std::move(basis)) {}
-
-  /// Solves for all right sides at once, in place.
-  void solve(const std::vector<std::vector<BallModel>*>& sides) {
-    for (std::size_t p = 0; p < n_; ++p) {
-      std::size_t pivot = p;
-      for (std::size_t i = p + 1; i < n_; ++i) {
-        pivot = weight(i, p) > weight(pivot, p) ? i : pivot;
-      }
-      for (std::size_t j = 0; j < n_; ++j) {
-        std::swap(at(p, j), at(pivot, j));
-      }
-      for (auto* side : sides) {
-        std::swap((*side)[p], (*side)[pivot]);
-      }
-      const BallModel reciprocal = BallModel(1.0) / at(p, p);
-      for (std::size_t i = 0; i < n_; ++i) {
-        if (i == p) {
-          continue;
-        }
-        const BallModel factor = at(i, p) * reciprocal;
-        for (std::size_t j = p; j < n_; ++j) {
-          at(i, j) -= factor * at(p, j);
-        }
-        for (auto* side : sides) {
-          (*side)[i] -= factor * (*side)[p];
-        }
-      }
-      for (std::size_t j = p; j < n_; ++j) {
-        at(p, j) = at(p, j) * reciprocal;
-      }
-      for (auto* side : sides) {
-        (*side)[p] = (*side)[p] * reciprocal;
-      }
-    }
-  }
-
- private:
-  BallModel& at(std::size_t i, std::size_t j) { return a_[i * n_ + j]; }
-  /// How far an entry is from 0, relative to its row: states have units.
-  double weight(std::size_t i, std::size_t p) {
-    double row = 0.0;
-    for (std::size_t j = p; j < n_; ++j) {
-      row = std::max(row, std::fabs(at(i, j).constant()));
-    }
-    const Interval range = at(i, p).range();
-    return is_empty(range) ? 0.0 : rigor::mignitude(range) / row;
-  }
-
-  std::size_t n_;
-  std::vector<BallModel> a_;
-};
+std::vector<BallModel> basis_at(const FloquetCell& cell, const BallModel& phase, const BallModel& z) {
+  return tube_at(curve_of_basis(cell), phase, z).curve;
+}
 
 /// A remainder by which a result still has a slope is an input with a column, whatever its gate was: a wrong
 /// gate costs room and never correctness.
@@ -213,6 +120,99 @@ PhaseValue constant_value(const Interval& constant) {
   return {BallModel(constant), {}};
 }
 
+/// The one state of which a frequency without remainders is a multiple, and the factor; or none. `values`:
+/// constants and states.
+std::optional<std::pair<std::size_t, Interval>> frequency_state(const TrackerModel& tracker,
+                                                                std::vector<PhaseValue> values) {
+  const std::size_t n = static_cast<std::size_t>(tracker.recursion->states);
+  for (std::size_t i = 0; i < n; ++i) {
+    values[values.size() - n + i].slopes = {{static_cast<int>(i), BallModel(1.0)}};
+  }
+  PhaseStep unused;
+  const PhaseValue result = PhaseRun(n, 0, unused).run(tracker.recursion->frequency, values, false).front();
+  std::optional<std::pair<std::size_t, Interval>> found;
+  for (const auto& [input, slope] : result.slopes) {
+    if (static_cast<std::size_t>(input) >= n || found) {
+      return std::nullopt;
+    }
+    found.emplace(static_cast<std::size_t>(input), slope.range());
+  }
+  return found;
+}
+
+/// The derivatives of a curve by the frequency at a phase that does not change with it, times `factor`.
+std::vector<BallModel> per_frequency(const Tube& curve, double half_width, const BallModel& phase,
+                                     const BallModel& z, double factor) {
+  std::vector<BallModel> slopes;
+  const BallModel per_z(Interval(factor) / Interval(half_width));
+  for (const BallModel& each : curve_slope_at(curve, phase, z)) {
+    slopes.push_back(each * per_z);
+  }
+  return slopes;
+}
+
+std::vector<PhaseValue> states_in_basis(const std::vector<BallModel>& curve,
+                                        const std::vector<BallModel>& basis) {
+  const std::size_t n = curve.size();
+  std::vector<PhaseValue> states;
+  for (std::size_t i = 0; i < n; ++i) {
+    PhaseValue state{curve[i], {}};
+    for (std::size_t j = 0; j < n; ++j) {
+      state.slopes.emplace(static_cast<int>(j), basis[i * n + j]);
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+/// The slopes of the new states, and what else comes into them, in the basis at the end of the step.
+/// `basis_slope`: of its derivative by the frequency, row by row.
+void change_basis(const std::vector<PhaseValue>& next, std::size_t channels, std::vector<BallModel> basis,
+                  const std::vector<BallModel>& basis_slope, PhaseStep& step) {
+  const std::size_t n = next.size();
+  const auto slopes_by = [&](std::size_t key) {
+    std::vector<BallModel> column;
+    for (const PhaseValue& each : next) {
+      const auto found = each.slopes.find(static_cast<int>(key));
+      column.push_back(found == each.slopes.end() ? BallModel(0.0) : found->second);
+    }
+    return column;
+  };
+  std::vector<std::vector<BallModel>> by_state;
+  std::vector<std::vector<BallModel>> units(n, std::vector<BallModel>(n));
+  std::vector<std::vector<BallModel>> changes(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    by_state.push_back(slopes_by(j));
+    units[j][j] = BallModel(1.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      changes[j].push_back(basis_slope[i * n + j]);
+    }
+  }
+  std::vector<std::vector<BallModel>*> sides{&step.residual, &step.slew};
+  for (std::size_t j = 0; j < n; ++j) {
+    sides.push_back(&by_state[j]);
+    sides.push_back(&units[j]);
+    sides.push_back(&changes[j]);
+  }
+  for (std::size_t c = 0; c < channels; ++c) {
+    sides.push_back(&(step.columns[static_cast<int>(c)] = slopes_by(n + c)));
+  }
+  for (const int gate : step.gates) {
+    sides.push_back(&(step.columns[gate] = slopes_by(n + static_cast<std::size_t>(gate))));
+  }
+  solve_in_basis(std::move(basis), sides);
+  step.matrix.assign(n, std::vector<BallModel>(n));
+  step.inverse = step.matrix;
+  step.basis_slope = step.matrix;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      step.matrix[i][j] = by_state[j][i];
+      step.inverse[i][j] = units[j][i];
+      step.basis_slope[i][j] = changes[j][i];
+    }
+  }
+}
+
 }  // namespace
 
 PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const TubeCell& part) {
@@ -221,9 +221,7 @@ PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const
   const CellPlace place = place_of(part);
   const BallModel omega = frequency_at(cell.curve, place.z);
   const BallModel next_phase = place.phase + omega;
-  const std::vector<BallModel> here = tube_at(cell.curve, place.phase, place.z).curve;
   const std::vector<BallModel> there = tube_at(cell.curve, next_phase, place.z).curve;
-  const std::vector<BallModel> basis = basis_at(cell, place.phase, place.z);
 
   PhaseStep step;
   PhaseRun run(n, channels, step);
@@ -231,59 +229,29 @@ PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const
   for (const Interval& constant : tracker.constants) {
     values.push_back(constant_value(constant));
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    PhaseValue state{here[i], {}};
-    for (std::size_t j = 0; j < n; ++j) {
-      state.slopes.emplace(static_cast<int>(j), basis[i * n + j]);
-    }
+  for (PhaseValue& state : states_in_basis(tube_at(cell.curve, place.phase, place.z).curve,
+                                           basis_at(cell, place.phase, place.z))) {
     values.push_back(std::move(state));
   }
+  step.frequency_state = frequency_state(tracker, values);
   std::vector<PhaseValue> error = run.run(tracker.recursion->frequency, values, false);
   const std::vector<BallModel> signal =
       model::run(tracker, *tracker.signal, {BallModel(tracker.amplitude), next_phase});
   for (std::size_t c = 0; c < channels; ++c) {
     values.push_back({signal[c], {{static_cast<int>(n + c), BallModel(1.0)}}});
   }
-  std::vector<PhaseValue> next = run.run(tracker.recursion->step, values, true);
+  const std::vector<PhaseValue> next = run.run(tracker.recursion->step, values, true);
   error.front().base -= omega;
   step.bias = error.front().base;
   run.rules().form_of(error.front());
-
   add_open_remainders(next, n, step);
-
-  // In the basis at the end of the step.
-  const auto slopes_by = [&](int key) {
-    std::vector<BallModel> column;
-    for (const PhaseValue& each : next) {
-      const auto found = each.slopes.find(key);
-      column.push_back(found == each.slopes.end() ? BallModel(0.0) : found->second);
-    }
-    return column;
-  };
-  std::vector<std::vector<BallModel>> by_state;
-  for (std::size_t j = 0; j < n; ++j) {
-    by_state.push_back(slopes_by(static_cast<int>(j)));
-  }
   for (std::size_t i = 0; i < n; ++i) {
     step.residual.push_back(next[i].base - there[i]);
   }
-  std::vector<std::vector<BallModel>*> sides{&step.residual};
-  for (auto& column : by_state) {
-    sides.push_back(&column);
-  }
-  for (std::size_t c = 0; c < channels; ++c) {
-    sides.push_back(&(step.columns[static_cast<int>(c)] = slopes_by(static_cast<int>(n + c))));
-  }
-  for (const int gate : step.gates) {
-    sides.push_back(&(step.columns[gate] = slopes_by(static_cast<int>(n) + gate)));
-  }
-  Inverse(basis_at(cell, next_phase, place.z), n).solve(sides);
-  step.matrix.assign(n, std::vector<BallModel>(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      step.matrix[i][j] = by_state[j][i];
-    }
-  }
+  const double half_width = cell.curve.half_width;
+  step.slew = per_frequency(cell.curve, half_width, next_phase, place.z, -1.0);
+  change_basis(next, channels, basis_at(cell, next_phase, place.z),
+               per_frequency(curve_of_basis(cell), half_width, next_phase, place.z, 1.0), step);
   return step;
 }
 

@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "analysis/model/step/tube_models.hpp"
@@ -49,8 +51,14 @@ struct PhaseStep {
   std::vector<int> gates;                                ///< remainders, gathered or alone, that have columns
   std::vector<std::vector<rigor::BallModel>> matrix;     ///< rows, in the basis
   std::map<int, std::vector<rigor::BallModel>> columns;  ///< of noise and gates
-  std::vector<rigor::BallModel> residual;                ///< in the basis
-  rigor::BallModel bias;                                 ///< the frequency error on the curve, rad/sample
+  std::vector<std::vector<rigor::BallModel>> inverse;    ///< of the basis at the end of the step
+  /// The inverse times the derivative of the basis by the frequency.
+  std::vector<std::vector<rigor::BallModel>> basis_slope;
+  std::vector<rigor::BallModel> residual;  ///< in the basis
+  std::vector<rigor::BallModel> slew;      ///< column of a slew, but for the curve's bend
+  rigor::BallModel bias;                   ///< the frequency error on the curve, rad/sample
+  /// The one state of which the frequency is a multiple, and the factor; or none.
+  std::optional<std::pair<std::size_t, rigor::Interval>> frequency_state;
 };
 
 /// Over a part of the cell's phases and frequencies. The structure is the same for all parts. Throws NoFrame

@@ -174,6 +174,19 @@ TubeHere tube_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
   return here;
 }
 
+std::vector<BallModel> curve_slope_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
+  const Harmonics harmonics = harmonics_at(phase, most_harmonics(tube));
+  std::vector<BallModel> slopes{BallModel(0.0)};  // of z^d
+  for (const BallModel& power : powers_at(z, most_powers(tube))) {
+    slopes.push_back(power * BallModel(static_cast<double>(slopes.size())));
+  }
+  std::vector<BallModel> result;
+  for (const PhaseSeries& each : tube.curve) {
+    result.push_back(sum_of(each, harmonics, slopes));
+  }
+  return result;
+}
+
 CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell, FrameParts parts,
                    PlaceStore* store) {
   const auto plane = [&] {

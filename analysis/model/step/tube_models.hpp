@@ -30,6 +30,10 @@ struct CellPlace {
 
 [[nodiscard]] TubeHere tube_at(const Tube& tube, const rigor::BallModel& phase, const rigor::BallModel& z);
 
+/// The derivative of the curve by z at a phase that does not change with z.
+[[nodiscard]] std::vector<rigor::BallModel> curve_slope_at(const Tube& tube, const rigor::BallModel& phase,
+                                                           const rigor::BallModel& z);
+
 /// The quantities that depend on the place in a cell only: computed among polynomials of two variables, and
 /// then lifted to those of the scope.
 struct CellFrame {

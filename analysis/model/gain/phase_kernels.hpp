@@ -1,0 +1,108 @@
+// What past inputs of a loop do to its forms, by the phases at which they came in
+// (docs/gain-proof.md, section 10).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "analysis/model/gain/phase_part.hpp"
+
+namespace veritrack::model {
+
+/// Bounds of sums over all lags, of absolute values of states, for all parts together: of each column (noise,
+/// slew, gates), of the residual, and of 1 in each state.
+struct PhaseTotals {
+  std::vector<std::vector<double>> of_column;
+  std::vector<double> residual, contraction;
+};
+
+/// The powers of a part's matrix, and sums with them, in two stages: first over the lags alone, then, once
+/// totals for all parts are known, over lags and phases.
+class PhaseKernels {
+ public:
+  static constexpr std::size_t kBlocks = 64;
+  static constexpr std::size_t kNoise = 0, kSlew = 1, kFirstGate = 2;  ///< columns
+
+  /// Of part number `index`, with the slew with which `parts` were widened. Needs the upward rounding mode.
+  PhaseKernels(const std::vector<PhasePart>& parts, std::size_t index, const PhaseGridding& gridding,
+               double slew);
+
+  /// The least totals for all of these, or empty.
+  [[nodiscard]] static std::optional<PhaseTotals> totals_of(const std::vector<PhaseKernels>& all);
+  /// The second stage.
+  void find(const PhaseTotals& totals);
+
+  /// What deviations of these sizes do to states, by blocks of lags from which on, and at last beyond the
+  /// horizon. `peak`: for all of `all`.
+  [[nodiscard]] static std::optional<std::vector<double>> peak_of(const std::vector<PhaseKernels>& all,
+                                                                  const std::vector<double>& start);
+  /// By form: a bound of what starts do from this block on.
+  [[nodiscard]] std::vector<double> from_start(const std::vector<double>& start,
+                                               const std::vector<double>& peak, std::size_t block) const;
+
+  /// Cells of phases, as many as a power of 2.
+  struct Window {
+    std::size_t offset = 0;  ///< the first cell, from the cell of the form on
+    std::size_t exponent = 0;
+  };
+  [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
+  [[nodiscard]] std::size_t forms() const { return part_->forms.size(); }
+  [[nodiscard]] std::size_t columns() const { return columns_.size(); }
+  /// Of noise or slew, at a point of the grid.
+  [[nodiscard]] double gain(std::size_t form, std::size_t column, std::size_t point) const {
+    return sums_[form][column][point];
+  }
+  /// Of a gate, at a point of the grid: by windows.
+  [[nodiscard]] const double* gains(std::size_t form, std::size_t column, std::size_t point) const {
+    return sums_[form][column].data() + point * windows_.size();
+  }
+  /// What the sums on the grid miss, times the largest size of the input.
+  [[nodiscard]] double missed(std::size_t form, std::size_t column) const { return missed_[form][column]; }
+  [[nodiscard]] double residual(std::size_t form) const { return residual_[form]; }
+
+ private:
+  using Vector = std::vector<double>;
+  /// A column of the network, with several components where it is noise.
+  struct Column {
+    std::vector<const GridFunction*> components;
+    Vector sizes;     ///< S: sum of |G_k| (|B| + error at lag k)
+    Vector bent;      ///< sum of |G_k| min(F_k D_2, 2|B|)
+    Vector mistaken;  ///< sum of |G_k| error at lag k
+  };
+  /// What is known of the part and its neighbours.
+  struct Neighbours {
+    std::size_t reach = 0;
+    std::vector<rigor::Interval> matrix;
+    std::vector<std::vector<Vector>> error;  ///< by column, component
+  };
+
+  void find_columns();
+  void find_windows();
+  void find_lags(const std::vector<PhasePart>& parts, std::size_t index);
+  void widen(const std::vector<PhasePart>& parts, std::size_t index, std::size_t reach,
+             Neighbours& neighbours) const;
+  void add_lag(std::size_t lag, const Neighbours& neighbours);
+  [[nodiscard]] static std::optional<Vector> least_total(const std::vector<PhaseKernels>& all,
+                                                         const std::vector<Vector>& sums);
+  [[nodiscard]] double half_width_at(std::size_t lag) const;
+  [[nodiscard]] double missed_of(const GridFunction& form, const Column& column, const Vector& total) const;
+  void add_sums();
+  class LagSums;
+
+  const PhasePart* part_;
+  std::size_t states_, phases_, horizon_;
+  double slew_;
+  std::vector<Column> columns_;
+  Vector powers_;                      ///< of the matrix, by lag, row by row
+  Vector power_sum_;                   ///< of absolute values
+  Vector defect_;                      ///< M
+  std::vector<Vector> largest_power_;  ///< by block: of absolute values from it on
+  std::vector<Window> windows_;
+  std::vector<std::size_t> window_of_;  ///< by lag
+  std::vector<std::vector<Vector>> sums_;
+  std::vector<Vector> missed_;
+  Vector residual_;
+};
+
+}  // namespace veritrack::model

@@ -1,0 +1,296 @@
+// The first stage of kernels: sums over the lags alone.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "analysis/model/gain/phase_kernels.hpp"
+#include "analysis/rigor/elementary.hpp"
+
+namespace veritrack::model {
+
+using rigor::Interval;
+
+namespace {
+
+std::vector<double> matrix_times(const std::vector<double>& matrix, const std::vector<double>& vector) {
+  const std::size_t n = vector.size();
+  std::vector<double> result(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      result[i] += matrix[i * n + j] * vector[j];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+PhaseKernels::PhaseKernels(const std::vector<PhasePart>& parts, std::size_t index,
+                           const PhaseGridding& gridding, double slew)
+    : part_(&parts[index]),
+      states_(part_->states),
+      phases_(gridding.phases),
+      horizon_(gridding.horizon),
+      slew_(slew) {
+  find_columns();
+  find_windows();
+  find_lags(parts, index);
+}
+
+void PhaseKernels::find_columns() {
+  columns_.resize(kFirstGate);
+  for (const GridFunction& each : part_->noise) {
+    columns_[kNoise].components.push_back(&each);
+  }
+  columns_[kSlew].components.push_back(&part_->slew);
+  for (const auto& [input, column] : part_->columns) {
+    columns_.push_back({{&column}, {}, {}, {}});
+  }
+  for (Column& each : columns_) {
+    each.sizes.assign(states_, 0.0);
+    each.bent.assign(states_, 0.0);
+    each.mistaken.assign(states_, 0.0);
+  }
+}
+
+double PhaseKernels::half_width_at(std::size_t lag) const {
+  return part_->half_width + 0.5 * static_cast<double>(lag + 2) * slew_;
+}
+
+void PhaseKernels::find_windows() {
+  const double points = static_cast<double>(phases_) / (2.0 * std::numbers::pi) * (1.0 + 1e-12);
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;
+  for (std::size_t k = 0; k < horizon_; ++k) {
+    const double lag = static_cast<double>(k + 1);
+    const double length = 1.0 + 2.0 * lag * half_width_at(k) * points;
+    const double count = static_cast<double>(phases_);
+    // From the first phase of the cell on, at the highest frequency; a little more for rounding.
+    const double low = -lag * (part_->frequency + half_width_at(k)) * points - 1e-6;
+    Window window;
+    window.offset = static_cast<std::size_t>(std::floor(low - std::floor(low / count) * count)) % phases_;
+    const double width = std::ceil(length + 2e-6) + 1.0;
+    // Wide windows begin at multiples of an eighth of their width: then there are few.
+    const std::size_t first = window.offset;
+    const auto fits = [&] {
+      const std::size_t cells = std::size_t{1} << window.exponent;
+      const std::size_t grain = std::max<std::size_t>(cells / 8, 1);
+      window.offset = cells < phases_ ? first / grain * grain : 0;
+      return cells >= phases_ ||
+             static_cast<double>(first - window.offset) + width <= static_cast<double>(cells);
+    };
+    while (!fits()) {
+      ++window.exponent;
+    }
+    const auto [found, is_new] = known.try_emplace({window.offset, window.exponent}, windows_.size());
+    if (is_new) {
+      windows_.push_back(window);
+    }
+    window_of_.push_back(found->second);
+  }
+}
+
+void PhaseKernels::widen(const std::vector<PhasePart>& parts, std::size_t index, std::size_t reach,
+                         Neighbours& neighbours) const {
+  for (std::size_t q = index - std::min(index, reach); q < parts.size() && q <= index + reach; ++q) {
+    const std::size_t distance = q > index ? q - index : index - q;
+    if (distance <= neighbours.reach && distance > 0) {
+      continue;
+    }
+    const PhasePart& other = parts[q];
+    for (std::size_t i = 0; i < neighbours.matrix.size(); ++i) {
+      neighbours.matrix[i] = hull(neighbours.matrix[i], other.matrix[i]);
+    }
+    std::vector<std::vector<const GridFunction*>> theirs(kFirstGate);
+    for (const GridFunction& each : other.noise) {
+      theirs[kNoise].push_back(&each);
+    }
+    theirs[kSlew].push_back(&other.slew);
+    for (const auto& [input, column] : other.columns) {
+      theirs.push_back({&column});
+    }
+    for (std::size_t l = 0; l < columns_.size(); ++l) {
+      for (std::size_t c = 0; c < columns_[l].components.size(); ++c) {
+        const GridFunction& mine = *columns_[l].components[c];
+        const GridFunction& its = *theirs.at(l).at(c);
+        for (std::size_t i = 0; i < states_; ++i) {
+          double far = 0.0;
+          for (std::size_t g = 0; g < phases_; ++g) {
+            far = larger_or_nan(far,
+                                rigor::magnitude(Interval(its.values[i][g]) - Interval(mine.values[i][g])));
+          }
+          double& error = neighbours.error[l][c][i];
+          error = larger_or_nan(error, far + its.error[i]);
+        }
+      }
+    }
+  }
+  neighbours.reach = reach;
+}
+
+void PhaseKernels::add_lag(std::size_t lag, const Neighbours& neighbours) {
+  const double points = static_cast<double>(phases_) / (2.0 * std::numbers::pi) * (1.0 + 1e-12);
+  const double length = 1.0 + 2.0 * static_cast<double>(lag + 1) * half_width_at(lag) * points;
+  const double spread = (length - 1.0) * (length - 1.0) + 1.0;
+  const double bend = std::min(0.25 * length * std::ceil(length), 0.125 * spread + 0.25 * std::sqrt(spread));
+  const double* power = powers_.data() + lag * states_ * states_;
+  for (std::size_t l = 0; l < columns_.size(); ++l) {
+    Column& column = columns_[l];
+    for (std::size_t c = 0; c < column.components.size(); ++c) {
+      const GridFunction& of = *column.components[c];
+      const Vector& error = neighbours.error[l][c];
+      for (std::size_t j = 0; j < states_; ++j) {
+        const double bent = std::min(bend * of.second_difference[j], 2.0 * of.largest[j]);
+        for (std::size_t i = 0; i < states_; ++i) {
+          const double size = std::fabs(power[i * states_ + j]);
+          column.sizes[i] += size * (of.largest[j] + error[j]);
+          column.bent[i] += size * bent;
+          column.mistaken[i] += size * error[j];
+        }
+      }
+    }
+  }
+}
+
+void PhaseKernels::find_lags(const std::vector<PhasePart>& parts, std::size_t index) {
+  const std::size_t n = states_;
+  power_sum_.assign(n * n, 0.0);
+  defect_.assign(n * n, 0.0);
+  largest_power_.assign(kBlocks + 1, Vector(n * n, 0.0));
+  Neighbours neighbours;
+  neighbours.matrix = part_->matrix;
+  for (const Column& each : columns_) {
+    neighbours.error.emplace_back(each.components.size(), Vector(n, 0.0));
+  }
+  widen(parts, index, 0, neighbours);
+  Vector power(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    power[i * n + i] = 1.0;
+  }
+  for (std::size_t k = 0; k < horizon_; ++k) {
+    if (slew_ > 0.0) {
+      const double far = static_cast<double>(k + 1) * slew_ / (2.0 * part_->half_width) + 1.0 + 1e-6;
+      const auto reach = static_cast<std::size_t>(std::min(far, static_cast<double>(parts.size())));
+      if (reach > neighbours.reach) {
+        widen(parts, index, reach, neighbours);
+      }
+    }
+    powers_.insert(powers_.end(), power.begin(), power.end());
+    Vector next(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const double size = std::fabs(power[i * n + j]);
+        power_sum_[i * n + j] += size;
+        double& largest = largest_power_[k * kBlocks / horizon_][i * n + j];
+        largest = larger_or_nan(largest, size);
+        for (std::size_t m = 0; m < n && k + 1 < horizon_; ++m) {
+          next[i * n + j] += power[i * n + m] * part_->middle[m * n + j];
+        }
+        Interval defect(next[i * n + j]);
+        for (std::size_t m = 0; m < n; ++m) {
+          defect -= Interval(power[i * n + m]) * neighbours.matrix[m * n + j];
+        }
+        defect_[i * n + j] += rigor::magnitude(defect);
+      }
+    }
+    add_lag(k, neighbours);
+    power = std::move(next);
+  }
+  for (std::size_t block = kBlocks; block-- > 0;) {
+    for (std::size_t i = 0; i < n * n; ++i) {
+      largest_power_[block][i] = larger_or_nan(largest_power_[block][i], largest_power_[block + 1][i]);
+    }
+  }
+}
+
+std::optional<std::vector<double>> PhaseKernels::least_total(const std::vector<PhaseKernels>& all,
+                                                             const std::vector<Vector>& sums) {
+  constexpr int kSteps = 200;
+  constexpr double kRoom = 1.0 + 1e-7;
+  const auto after = [&](const Vector& total) {
+    Vector most(total.size(), 0.0);
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      const Vector each = matrix_times(all[p].defect_, total);
+      for (std::size_t i = 0; i < most.size(); ++i) {
+        most[i] = larger_or_nan(most[i], sums[p][i] + each[i]);
+      }
+    }
+    return most;
+  };
+  Vector total(sums.front().size(), 0.0);
+  for (int i = 0; i < kSteps; ++i) {
+    total = after(total);
+    for (double& each : total) {
+      each = each * kRoom + 1e-300;
+    }
+  }
+  const Vector next = after(total);
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    if (!(next[i] <= total[i]) || !std::isfinite(total[i])) {
+      return std::nullopt;
+    }
+  }
+  return total;
+}
+
+std::optional<PhaseTotals> PhaseKernels::totals_of(const std::vector<PhaseKernels>& all) {
+  PhaseTotals totals;
+  if (all.empty()) {
+    return std::nullopt;
+  }
+  const auto total = [&](auto sums_of, Vector& result) {
+    std::vector<Vector> sums;
+    for (const PhaseKernels& each : all) {
+      sums.push_back(sums_of(each));
+    }
+    auto found = least_total(all, sums);
+    result = found ? *std::move(found) : Vector();
+    return !result.empty();
+  };
+  totals.of_column.resize(all.front().columns_.size());
+  Vector residual(all.front().states_, 0.0);  // that of a sample before may be of another part
+  for (const PhaseKernels& each : all) {
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+      residual[i] = larger_or_nan(residual[i], each.part_->residual[i]);
+    }
+  }
+  bool is_bounded =
+      total([](const PhaseKernels& each) { return matrix_times(each.power_sum_, Vector(each.states_, 1.0)); },
+            totals.contraction) &&
+      total([&residual](const PhaseKernels& each) { return matrix_times(each.power_sum_, residual); },
+            totals.residual);
+  for (std::size_t l = 0; l < totals.of_column.size(); ++l) {
+    is_bounded = is_bounded && total([l](const PhaseKernels& each) { return each.columns_.at(l).sizes; },
+                                     totals.of_column[l]);
+  }
+  return is_bounded ? std::optional(std::move(totals)) : std::nullopt;
+}
+
+std::optional<std::vector<double>> PhaseKernels::peak_of(const std::vector<PhaseKernels>& all,
+                                                         const std::vector<double>& start) {
+  std::vector<Vector> sums;
+  for (const PhaseKernels& each : all) {
+    sums.push_back(matrix_times(each.largest_power_.front(), start));
+  }
+  return least_total(all, sums);
+}
+
+std::vector<double> PhaseKernels::from_start(const std::vector<double>& start,
+                                             const std::vector<double>& peak, std::size_t block) const {
+  Vector states = matrix_times(largest_power_.at(block), start);
+  const Vector rest = matrix_times(defect_, peak);
+  for (std::size_t i = 0; i < states_; ++i) {
+    states[i] += rest[i];
+  }
+  Vector result;
+  for (const GridFunction& form : part_->forms) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < states_; ++i) {
+      sum += (form.largest[i] + form.error[i]) * states[i];
+    }
+    result.push_back(sum);
+  }
+  return result;
+}
+
+}  // namespace veritrack::model

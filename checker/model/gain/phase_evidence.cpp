@@ -62,6 +62,9 @@ PhaseCell read_cell(const Tree& tree, const ModelRecursion& recursion, Objection
   for (const PhaseSeries& series : cell.tube.curve) {
     cell.slope.curve.push_back(derivative_of(series));
   }
+  for (const PhaseSeries& series : cell.tube.shape) {
+    cell.slope.shape.push_back(derivative_of(series));
+  }
   return cell;
 }
 

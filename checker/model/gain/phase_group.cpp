@@ -138,10 +138,11 @@ std::optional<PhaseGroup::Widened> PhaseGroup::widened(const PhasePart& part) co
   if (slew_ == 0.0) {
     return result;
   }
-  Table move = product_above(part.inverse, part.basis_slope);
-  for (std::vector<double>& row : move) {
-    for (double& entry : row) {
-      entry = up(upward_product(slew_, entry));
+  Table move = product_above(part.inverse, part.basis_bend);
+  for (std::size_t i = 0; i < move.size(); ++i) {
+    for (std::size_t j = 0; j < move.size(); ++j) {
+      const double bend = upward_product(0.5 * slew_, move[i][j]);
+      move[i][j] = up(upward_product(slew_, up(part.turned[i][j] + bend)));
     }
   }
   const std::optional<Table> more = closed_multiplier(move);

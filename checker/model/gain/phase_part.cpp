@@ -94,19 +94,16 @@ Table matrix_near(const PhaseCell& cell, double z, std::size_t n) {
   return matrix;
 }
 
-/// sum over h and d of d (d - 1) ... |c_hd|/D^times.
-Ball bound_of_derivative(const PhaseSeries& series, int times, double half_width) {
+/// sum over h and d of d (d - 1) |c_hd|/D^2.
+Ball bound_of_second_derivative(const PhaseSeries& series, double half_width) {
   Ball sum;
   for (const auto& harmonic : series) {
-    for (std::size_t d = 0; d < harmonic.size(); ++d) {
-      Ball factor = sqrt(square(Ball(harmonic[d].real())) + square(Ball(harmonic[d].imag())));
-      for (int k = 0; k < times; ++k) {
-        factor = factor * Ball(std::max(0.0, static_cast<double>(d) - k)) / Ball(half_width);
-      }
-      sum += factor;
+    for (std::size_t d = 2; d < harmonic.size(); ++d) {
+      const Ball size = sqrt(square(Ball(harmonic[d].real())) + square(Ball(harmonic[d].imag())));
+      sum += Ball(static_cast<double>(d * (d - 1))) * size;
     }
   }
-  return sum;
+  return sum / square(Ball(half_width));
 }
 
 /// Collects what the runs over all cells of phases say.
@@ -117,15 +114,15 @@ class PartCollection {
     const std::size_t n = structure.states;
     part_.matrix = matrix_near(cell, z, n);
     part_.matrix_error.assign(n, std::vector<double>(n, 0.0));
-    part_.inverse = part_.matrix_error;
+    part_.inverse = part_.turned = part_.matrix_error;
     part_.residual.assign(n, 0.0);
     part_.half_width = cell.tube.half_width;
     for (std::size_t i = 0; i < n; ++i) {
-      part_.curve_bend.push_back(upper(bound_of_derivative(cell.tube.curve[i], 2, part_.half_width)));
-      part_.basis_slope.emplace_back();
+      part_.curve_bend.push_back(upper(bound_of_second_derivative(cell.tube.curve[i], part_.half_width)));
+      part_.basis_bend.emplace_back();
       for (std::size_t j = 0; j < n; ++j) {
-        part_.basis_slope.back().push_back(
-            upper(bound_of_derivative(cell.tube.shape[i * n + j], 1, part_.half_width)));
+        part_.basis_bend.back().push_back(
+            upper(bound_of_second_derivative(cell.tube.shape[i * n + j], part_.half_width)));
       }
     }
     columns_.resize(structure.channels + structure.inputs.size());
@@ -141,6 +138,7 @@ class PartCollection {
       raise(part_.residual[i], run.residual[i].range());
     }
     raise(part_.inverse, run.inverse);
+    raise(part_.turned, run.turned);
     for (std::size_t form = 0; form < forms_.size(); ++form) {
       add_cell(forms_[form], run.forms[form]);
     }
@@ -182,7 +180,7 @@ bool is_known(const PhasePart& part, std::size_t phases, std::size_t states) {
     return std::all_of(table.begin(), table.end(), are_sizes);
   };
   const auto is_grid = [&](const GridFunction& f) { return is_grid_function(f, phases, states); };
-  return are_rows(part.matrix_error) && are_rows(part.inverse) && are_rows(part.basis_slope) &&
+  return are_rows(part.matrix_error) && are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
          are_sizes(part.residual) && are_sizes(part.curve_bend) && part.cells.size() == phases &&
          std::all_of(part.forms.begin(), part.forms.end(), is_grid) &&
          std::all_of(part.inputs.begin(), part.inputs.end(), [&](const PhaseInput& input) {

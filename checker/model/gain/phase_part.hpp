@@ -29,7 +29,8 @@ struct PhasePart {
   Table inverse;                   ///< sup |P^-1|
   std::vector<double> residual;
   std::vector<double> curve_bend;  ///< sup |d^2 C/d omega^2|
-  Table basis_slope;               ///< sup |dP/d omega|
+  Table turned;                    ///< sup |P^-1 dP/d omega|
+  Table basis_bend;                ///< sup |d^2 P/d omega^2|
   std::vector<PhaseCellValues> cells;
 
   static constexpr std::size_t kNoise = 0;

@@ -139,6 +139,18 @@ PolynomialRow product_of(const PolynomialMatrix& matrix, const PolynomialRow& co
   return result;
 }
 
+PolynomialMatrix product_of(const PolynomialMatrix& x, const PolynomialMatrix& y) {
+  PolynomialMatrix result(x.size(), PolynomialRow(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        result[i][j] += x[i][k] * y[k][j];
+      }
+    }
+  }
+  return result;
+}
+
 /// The row from `first` on whose entry in that column is certainly farthest from 0.
 std::size_t best_pivot(const PolynomialMatrix& matrix, std::size_t first) {
   std::size_t best = first;
@@ -226,9 +238,16 @@ PhaseRun run_over(const PhaseStructure& structure, const TrackedModel& model, co
     }
     run.columns.push_back(product_of(run.inverse, column));
   }
-  const BallPolynomial per_frequency(-(one / Ball(cell.tube.half_width)));
-  for (BallPolynomial& entry : product_of(run.inverse, TubeOver(cell.slope, part, 1).curve)) {
-    run.slew.push_back(per_frequency * entry);
+  const TubeOver slope(cell.slope, part, 1);
+  const BallPolynomial per_frequency(one / Ball(cell.tube.half_width));
+  for (const BallPolynomial& entry : product_of(run.inverse, slope.curve)) {
+    run.slew.push_back(-(per_frequency * entry));
+  }
+  for (PolynomialRow& row : product_of(run.inverse, square_of(slope.shape, n))) {
+    run.turned.emplace_back();
+    for (const BallPolynomial& entry : row) {
+      run.turned.back().push_back(per_frequency * entry);
+    }
   }
   return run;
 }

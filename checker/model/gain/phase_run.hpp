@@ -15,7 +15,7 @@ namespace veritrack::checker {
 /// curve, and `shape` has all entries of the basis, row by row.
 struct PhaseCell {
   PhaseTube tube;
-  PhaseTube slope;                          ///< the derivative of the curve by z, without turns
+  PhaseTube slope;  ///< the derivatives of the curve, without turns, and of the basis by z
   std::size_t parts = 1;                    ///< of the frequencies
   std::vector<std::vector<double>> matrix;  ///< coefficients of the powers of z, by entry
 };
@@ -31,6 +31,7 @@ struct PhaseRun {
   PolynomialRow residual;
   PolynomialRow slew;       ///< -P^-1 dC/d omega at a fixed phase
   PolynomialMatrix inverse;  ///< P^-1 a sample later
+  PolynomialMatrix turned;   ///< P^-1 dP/d omega there, at a fixed phase
   BallPolynomial bias;
   std::vector<RuleRange> rules;
   /// By form: suprema of the slopes by noise, remainders and inputs, with the numbers of the variables.

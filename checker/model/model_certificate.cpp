@@ -7,6 +7,7 @@
 
 #include "checker/model/gain/gain_claims.hpp"
 #include "checker/model/gain/gain_evidence.hpp"
+#include "checker/model/gain/phase_evidence.hpp"
 #include "checker/model/gaussian_drift.hpp"
 #include "checker/model/long_run.hpp"
 #include "checker/model/model_claims.hpp"
@@ -124,10 +125,18 @@ void verify_gains(const Tree& certificate, const ModelDesign& design, const Trac
   if (certificate.find("tubes") != nullptr) {
     objections.emplace_back("tubes and gains in one certificate");
   }
-  const std::unique_ptr<Gains> gains = read_gains(
-      certificate.at("gains"), certificate.at("design").at("model"), *model.recursion, design, objections);
+  const Tree& evidence = certificate.at("gains");
+  std::unique_ptr<Gains> gains;
+  std::unique_ptr<PhaseBounds> with_phases;
+  if (evidence.find("cells") != nullptr) {
+    with_phases = read_phase_gains(evidence, model, design, objections);
+  } else {
+    gains = read_gains(evidence, certificate.at("design").at("model"), *model.recursion, design, objections);
+  }
   result.parts.push_back({"gains", objections});
-  const GainClaims claims(certificate, design, model, gains.get());
+  const LoopBounds* const loop =
+      with_phases ? static_cast<const LoopBounds*>(with_phases.get()) : gains.get();
+  const GainClaims claims(certificate, design, model, loop, gains ? &gains->network : nullptr);
   const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
   check_claims(certificate, claims.required(), check, result);
 }

@@ -8,10 +8,11 @@
 namespace veritrack::checker {
 
 GainClaims::GainClaims(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
-                       const Gains* gains)
+                       const LoopBounds* loop, const GainNetwork* network)
     : tree_(&certificate.at("design")),
       design_(&design),
-      gains_(gains),
+      loop_(loop),
+      network_(network),
       half_distance_(half_distance_to_false_lock(model, design.lowest, design.highest)),
       words_(*tree_),
       required_(certificate, design, "") {
@@ -19,54 +20,40 @@ GainClaims::GainClaims(const Tree& certificate, const ModelDesign& design, const
   units_ = FrequencyWords(tree_->at("assume"), said_before);
 }
 
-std::optional<GainErrors> GainClaims::errors(const Ball& noise, const Ball& slew) const {
-  return gains_ == nullptr || !gains_->bounds
-             ? std::nullopt
-             : gains_->bounds->errors(noise, slew, std::vector<Ball>(gains_->network.states()));
+GainClaims::Errors GainClaims::errors(const Ball& noise, const Ball& slew) const {
+  return loop_ == nullptr ? nullptr : loop_->errors(noise, slew, std::vector<Ball>(loop_->states()));
 }
 
-std::optional<GainErrors> GainClaims::assumed_errors() const {
-  return gains_ == nullptr || !gains_->bounds || design_->start_within.empty()
+GainClaims::Errors GainClaims::assumed_errors() const {
+  return loop_ == nullptr || design_->start_within.empty()
              ? errors(design_->noise, design_->slew)
-             : gains_->bounds->errors(design_->noise, design_->slew, design_->start_within);
+             : loop_->errors(design_->noise, design_->slew, design_->start_within);
 }
 
-std::optional<GainErrors> GainClaims::errors_from(const Ball& reach, const Ball& noise,
-                                                  const Ball& slew) const {
-  if (gains_ == nullptr || !gains_->bounds || !certainly_positive(reach)) {
-    return std::nullopt;
+GainClaims::Errors GainClaims::errors_from(const Ball& reach, const Ball& noise, const Ball& slew) const {
+  if (loop_ == nullptr || !certainly_positive(reach)) {
+    return nullptr;
   }
-  const GainNetwork& network = gains_->network;
-  const GainForm& frequency = network.forms[network.error_form];
-  std::vector<Ball> start(network.states());
-  std::size_t states = 0;
-  for (std::size_t i = 0; i < network.states(); ++i) {
-    if (certainly_equal(frequency.row[i], zero)) {
-      continue;
-    }
-    ++states;
-    start[i] = (reach + abs(network.bias)) / abs(frequency.row[i]);
-  }
-  return states == 1 && frequency.direct.empty() ? gains_->bounds->errors(noise, slew, start) : std::nullopt;
+  const std::vector<Ball> start = loop_->starts_within(reach);
+  return start.empty() ? nullptr : loop_->errors(noise, slew, start);
 }
 
-bool GainClaims::is_lock(const std::optional<GainErrors>& errors, const Ball& error) const {
+bool GainClaims::is_lock(const Errors& errors, const Ball& error) const {
   return errors && certainly_less(error, half_distance_) && certainly_at_most(errors->for_ever(), error);
 }
 
 bool GainClaims::mean_is_between(const Ball& low, const Ball& high) const {
-  const std::optional<GainErrors> settled = errors(zero, zero);
+  const Errors settled = errors(zero, zero);
   if (!settled) {
     return false;
   }
-  const Ball mean = gains_->network.bias + Ball::within(settled->mean_in_long_run());
-  return certainly_at_most(low, mean) && certainly_at_most(mean, high);
+  const Range mean = settled->mean();
+  return certainly_at_most(low, mean.low) && certainly_at_most(mean.high, high);
 }
 
 bool GainClaims::varies_by_at_most(const Ball& most) const {
-  // The bias is one number for each frequency.
-  const std::optional<GainErrors> settled = errors(zero, zero);
-  return settled && certainly_at_most(two * settled->deviation_in_long_run(), most);
+  const Errors settled = errors(zero, zero);
+  return settled && certainly_at_most(settled->variation(), most);
 }
 
 std::string GainClaims::assumed_hypotheses() const {
@@ -82,7 +69,7 @@ Claim GainClaims::required_claim(const Tree& claim) const {
   const std::string& id = claim.at("id").text();
   Claim found;
   if (id == kErrorBound || id == kSettlingTime) {
-    const std::optional<GainErrors> bound = assumed_errors();
+    const Errors bound = assumed_errors();
     found.statement = assumed_hypotheses() + ", " + required_.short_text(id) + ".";
     found.verdict = proved_if(
         bound && (id == kErrorBound ? certainly_less(bound->for_ever(), design_->frequency_error_below->value)
@@ -117,7 +104,7 @@ Claim GainClaims::required_claim(const Tree& claim) const {
 
 Claim GainClaims::guarantee(const Tree& claim) const {
   const Ball bound = written(claim, "frequency_error");
-  const std::optional<GainErrors> proved = assumed_errors();
+  const Errors proved = assumed_errors();
   Claim found;
   found.is_summary = true;
   found.hypotheses = assumed_hypotheses();
@@ -206,14 +193,13 @@ Claim GainClaims::stability(const Tree& claim) const {
   found.statement = found.hypotheses + ", the steady state of the certificate is stable: to first order, ";
   // To first order the linear recursion is the same at every sample, about a steady state of the true
   // frequency.
-  const bool is_constant = gains_ != nullptr && gains_->network.has_one_matrix() &&
-                           !design_->amplitude_varies && gains_->network.is_at_rest &&
-                           certainly_less(abs(gains_->network.bias), half_distance_);
+  const bool is_constant = network_ != nullptr && network_->has_one_matrix() && !design_->amplitude_varies &&
+                           network_->is_at_rest && certainly_less(abs(network_->bias), half_distance_);
   if (const Tree* growth = claim.find("growth")) {
     const Ball factor = written(claim, "growth");
     found.statement += "no error about it grows by a factor of " + growth->text() + " or more each sample.";
     const bool grows =
-        is_constant && certainly_at_most(one, factor) && an_eigenvalue_beyond(gains_->network.matrix, factor);
+        is_constant && certainly_at_most(one, factor) && an_eigenvalue_beyond(network_->matrix, factor);
     found.verdict = grows ? Verdict::refuted : Verdict::undecided;
     return found;
   }
@@ -221,7 +207,7 @@ Claim GainClaims::stability(const Tree& claim) const {
   found.statement += "errors about it shrink in the long run by a factor of at most " +
                      claim.at("decay").text() + " each sample.";
   found.verdict = proved_if(is_constant && certainly_less(factor, one) &&
-                            all_eigenvalues_within(gains_->network.matrix, factor));
+                            all_eigenvalues_within(network_->matrix, factor));
   return found;
 }
 

@@ -1,12 +1,13 @@
 // The claims of a certificate for a model, decided from gains (docs/gain-proof.md, sections 5 and 6).
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "checker/document/parts.hpp"
-#include "checker/model/gain/gain_bounds.hpp"
+#include "checker/model/gain/gain_network.hpp"
+#include "checker/model/gain/loop_bounds.hpp"
 #include "checker/model/model_design.hpp"
 #include "checker/model/required_claims.hpp"
 #include "checker/model/tube_step.hpp"
@@ -14,21 +15,13 @@
 
 namespace veritrack::checker {
 
-/// What a certificate by gains establishes.
-struct Gains {
-  GainNetwork network;
-  std::optional<GainBounds> bounds;  ///< none where the certificate names no horizon
-  explicit Gains(GainNetwork errors) : network(std::move(errors)) {}
-  Gains(const Gains&) = delete;
-  Gains& operator=(const Gains&) = delete;
-};
-
 class GainClaims {
  public:
-  /// Decides the claims of a certificate with this design. `gains`: none where they could not be verified.
-  /// All must outlive this.
+  /// Decides the claims of a certificate with this design. `loop`: none where it could not be verified.
+  /// `network`: none where the errors have no linear recursion that is the same at all phases. All must
+  /// outlive this.
   GainClaims(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
-             const Gains* gains);
+             const LoopBounds* loop, const GainNetwork* network);
 
   /// The requirements of [require].
   [[nodiscard]] std::vector<Requirement> required() const { return required_.all(); }
@@ -36,17 +29,19 @@ class GainClaims {
   Claim check(const Tree& claim, Objections& objections) const;
 
  private:
+  using Errors = std::unique_ptr<FrequencyErrors>;
+
   /// Bounds from the steady state; nothing where they are not certain.
-  [[nodiscard]] std::optional<GainErrors> errors(const Ball& noise, const Ball& slew) const;
+  [[nodiscard]] Errors errors(const Ball& noise, const Ball& slew) const;
   /// With all that is assumed.
-  [[nodiscard]] std::optional<GainErrors> assumed_errors() const;
+  [[nodiscard]] Errors assumed_errors() const;
   /// From all starts in which the one state that the frequency is a multiple of has frequency errors up to
   /// `reach`, at every phase.
-  [[nodiscard]] std::optional<GainErrors> errors_from(const Ball& reach, const Ball& noise,
+  [[nodiscard]] Errors errors_from(const Ball& reach, const Ball& noise,
                                                       const Ball& slew) const;
   /// They stay at or below this, which is nearer to the true lock than to any other that the formulas show
   /// (false_lock.hpp).
-  [[nodiscard]] bool is_lock(const std::optional<GainErrors>& errors, const Ball& error) const;
+  [[nodiscard]] bool is_lock(const Errors& errors, const Ball& error) const;
   /// Of the frequency error in the long run, without noise, from the steady state.
   [[nodiscard]] bool mean_is_between(const Ball& low, const Ball& high) const;
   [[nodiscard]] bool varies_by_at_most(const Ball& most) const;
@@ -62,7 +57,8 @@ class GainClaims {
 
   const Tree* tree_;  ///< the design
   const ModelDesign* design_;
-  const Gains* gains_;
+  const LoopBounds* loop_;
+  const GainNetwork* network_;
   Ball half_distance_;  ///< to a false lock
   ModelWords words_;
   RequiredClaims required_;

@@ -3,7 +3,8 @@
 
 #include <memory>
 
-#include "checker/model/gain/gain_claims.hpp"
+#include "checker/document/statement.hpp"
+#include "checker/model/gain/gain_loop.hpp"
 
 namespace veritrack::checker {
 

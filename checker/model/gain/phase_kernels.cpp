@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+
+#include "checker/model/gain/phase_lags.hpp"
 
 namespace veritrack::checker {
 
@@ -10,239 +14,373 @@ namespace {
 constexpr std::size_t kMostPhaseStates = 32;
 constexpr std::size_t kMostPhases = 512;
 constexpr std::size_t kLongestPhaseHorizon = 1U << 16U;
-/// Of sums of at most 2^17 numbers that are not negative, one after the other, and of what is added to them.
-constexpr double kManyRoundings = 1.0 + 0x1p-34;
 
-double product(const std::vector<double>& x, const std::vector<double>& y) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    sum += upward_product(x[i], y[i]);
-  }
-  return up(sum);
+/// Not below it.
+float float_above(double x) {
+  const auto near = static_cast<float>(x);
+  return static_cast<double>(near) < x ? std::nextafter(near, HUGE_VALF) : near;
 }
 
-/// row |G|.
-std::vector<double> through(const std::vector<double>& row, const Table& matrix) {
-  std::vector<double> result(row.size());
-  for (std::size_t j = 0; j < row.size(); ++j) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      result[j] += upward_product(row[i], matrix[i][j]);
-    }
-    result[j] = up(result[j]);
-  }
-  return result;
+bool is_size_table(const Table& table, std::size_t n) {
+  const auto is_size = [](double x) { return std::isfinite(x) && x >= 0.0; };
+  return table.size() == n && std::all_of(table.begin(), table.end(), [&](const auto& row) {
+           return row.size() == n && std::all_of(row.begin(), row.end(), is_size);
+         });
 }
 
-std::vector<double> sum_of(const std::vector<double>& x, const std::vector<double>& y) {
-  std::vector<double> result(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    result[i] = up(x[i] + y[i]);
-  }
-  return result;
-}
-
-Table sizes_of(const MatrixPowers& powers, std::size_t states) {
-  Table result(states);
-  for (std::size_t i = 0; i < states; ++i) {
-    WideRow unit(states);
-    unit[i].middle = 1.0;
-    for (const WideNumber& entry : powers.product(unit)) {
-      result[i].push_back(largest_size(entry));
+bool is_stage(const PhaseStage& stage, const PhaseLoop& loop, std::size_t n) {
+  bool is_one = is_size_table(stage.matrix_error, n) && stage.column_errors.size() == loop.inputs.size();
+  for (std::size_t input = 0; is_one && input < loop.inputs.size(); ++input) {
+    for (const std::size_t part : {0U, 1U}) {
+      const std::vector<double>& errors = stage.column_errors[input][part];
+      const bool is_there = part == 0 || !loop.inputs[input].second.values.empty();
+      is_one = is_one && errors.size() == (is_there ? n : 0) &&
+               std::all_of(errors.begin(), errors.end(),
+                           [](double x) { return std::isfinite(x) && x >= 0.0; });
     }
   }
-  return result;
+  return is_one;
+}
+
+/// The frequencies are known, and do not go further than twice around in a sample at any lag.
+bool has_band(const PhaseLoop& loop) {
+  const double turn = 2.0 * static_cast<double>(loop.phases);
+  const double more = up(0.5 * static_cast<double>(loop.horizon + 1) * loop.slew);
+  return std::isfinite(loop.low) && std::isfinite(loop.high) && loop.low <= loop.high && loop.slew >= 0.0 &&
+         std::isfinite(more) && loop.low - more >= -turn && loop.high + more <= turn;
 }
 
 bool is_loop(const PhaseLoop& loop) {
-  const std::size_t n = loop.columns.size();
+  const std::size_t n = loop.matrix.size();
   const std::size_t phases = loop.phases;
   if (n < 1 || n > kMostPhaseStates || phases < 8 || phases > kMostPhases || (phases & (phases - 1)) != 0 ||
-      loop.horizon < 1 || loop.horizon > kLongestPhaseHorizon || loop.forms.empty() || loop.inputs.empty()) {
+      loop.horizon < 1 || loop.horizon > kLongestPhaseHorizon || loop.forms.empty() || loop.inputs.empty() ||
+      loop.stages.empty() || loop.stages.front().first_lag != 0 ||
+      loop.has_one_size.size() != loop.inputs.size() || !has_band(loop)) {
     return false;
   }
-  const auto turn = static_cast<double>(phases);
-  const bool is_band = std::isfinite(loop.low) && std::isfinite(loop.high) && loop.low <= loop.high &&
-                       loop.low >= -turn && loop.high <= turn;
-  return is_band &&
-         std::all_of(loop.columns.begin(), loop.columns.end(),
-                     [&](const WideRow& column) {
-                       return column.size() == n &&
-                              std::all_of(column.begin(), column.end(), [](const WideNumber& x) {
-                                return std::isfinite(x.middle) && std::isfinite(x.radius) && x.radius >= 0.0;
-                              });
+  const auto is_grid = [&](const GridFunction& f) { return is_grid_function(f, phases, n); };
+  return std::all_of(loop.matrix.begin(), loop.matrix.end(),
+                     [&](const auto& row) {
+                       return row.size() == n && std::all_of(row.begin(), row.end(),
+                                                             [](double x) { return std::isfinite(x); });
                      }) &&
-         std::all_of(loop.forms.begin(), loop.forms.end(),
-                     [&](const GridFunction& f) { return is_grid_function(f, phases, n); }) &&
-         std::all_of(loop.inputs.begin(), loop.inputs.end(), [&](const PhaseInput& input) {
-           return is_grid_function(input.first, phases, n) &&
-                  (input.second.values.empty() || is_grid_function(input.second, phases, n));
-         });
+         std::all_of(loop.forms.begin(), loop.forms.end(), is_grid) &&
+         std::all_of(loop.inputs.begin(), loop.inputs.end(),
+                     [&](const PhaseInput& input) {
+                       return is_grid(input.first) &&
+                              (input.second.values.empty() || is_grid(input.second));
+                     }) &&
+         std::all_of(loop.stages.begin(), loop.stages.end(),
+                     [&](const PhaseStage& stage) { return is_stage(stage, loop, n); });
 }
 
 }  // namespace
 
+PhaseSizes::PhaseSizes(const std::vector<double>& sizes) : most{sizes} {
+  const std::size_t phases = sizes.size();
+  for (const double size : sizes) {
+    largest = size >= 0.0 && size <= HUGE_VAL ? std::max(largest, size) : HUGE_VAL;
+  }
+  for (std::size_t width = 1; width < phases; width *= 2) {
+    std::vector<double> wider(phases);
+    for (std::size_t g = 0; g < phases; ++g) {
+      wider[g] = std::max(most.back()[g], most.back()[(g + width) % phases]);
+    }
+    most.push_back(std::move(wider));
+  }
+  for (std::vector<double>& of_level : most) {
+    of_level.resize(2 * phases);
+    std::copy_n(of_level.begin(), phases, of_level.begin() + static_cast<std::ptrdiff_t>(phases));
+  }
+}
+
 PhaseKernels::PhaseKernels(const PhaseLoop& loop)
-    : phases_(loop.phases), forms_(loop.forms.size()), inputs_(loop.inputs.size()) {
+    : phases_(loop.phases),
+      states_(loop.matrix.size()),
+      horizon_(loop.horizon),
+      forms_(loop.forms.size()),
+      inputs_(loop.inputs.size()) {
   if (!is_loop(loop)) {
     return;
   }
-  const std::size_t n = loop.columns.size();
+  matrix_ = loop.matrix;
   while ((std::size_t{1} << levels_) < phases_) {
     ++levels_;
   }
-  sums_.assign(forms_ * inputs_ * phases_ * 4, std::vector<double>((levels_ + 1) * phases_, 0.0));
-  rest_.assign(forms_, std::vector<double>(inputs_, 0.0));
-  defect_.assign(n, std::vector<double>(n, 0.0));
-  totals_.assign(inputs_, std::vector<double>(n, 0.0));
-  powers_.assign(n, std::vector<double>(n, 0.0));
-  MatrixPowers powers(loop.columns);
-  for (std::size_t lag = 0; lag < loop.horizon; ++lag) {
-    spend(static_cast<std::int64_t>(forms_ * inputs_ * phases_));
-    add_corners(loop, powers, lag);
-    add_rest(loop, powers, lag);
-    powers.advance(defect_, lag + 1 == loop.horizon);
-  }
-  is_certain_ = close(loop);
-  collect();
+  allocate(loop);
+  sum_up(loop);
+  is_valid_ = true;
 }
 
-void PhaseKernels::add_corners(const PhaseLoop& loop, const MatrixPowers& powers, std::size_t lag) {
-  const auto steps = static_cast<double>(lag + 1);
-  std::vector<std::vector<WideRow>> rows(forms_);  // c G, by form and phase
-  for (std::size_t form = 0; form < forms_; ++form) {
-    for (const std::vector<double>& value : loop.forms[form].values) {
-      WideRow row;
-      for (const double entry : value) {
-        row.push_back({entry, 0.0});
-      }
-      rows[form].push_back(powers.product(row));
-    }
-  }
-  std::vector<std::size_t> kept(phases_);  // where in the sums of a place, by cell of the form
-  for (std::size_t cell = 0; cell < phases_; ++cell) {
-    const auto g = static_cast<double>(cell);
-    const double first = std::floor(g - steps * loop.high - kPlaceError);
-    const double last = std::floor(g + 1.0 - steps * loop.low + kPlaceError);
+void PhaseKernels::allocate(const PhaseLoop& loop) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers;
+  for (std::size_t lag = 0; lag < horizon_; ++lag) {
+    const LagPlace place(loop, lag);
     std::size_t level = 0;  // more cells than it is from only make the weight larger
-    while (level < levels_ && std::ldexp(1.0, static_cast<int>(level)) < last - first + 1.0) {
+    while (level < levels_ && std::ldexp(1.0, static_cast<int>(level)) < place.cells) {
       ++level;
     }
-    kept[cell] = level * phases_ + grid_cell(first, phases_);
+    const std::size_t first = level == levels_ ? 0 : place.first;
+    const auto [found, is_new] = numbers.try_emplace({level, first}, sources_.size());
+    if (is_new) {
+      sources_.push_back({level, first});
+    }
+    source_of_lag_.push_back(found->second);
   }
-  for (std::size_t input = 0; input < inputs_; ++input) {
-    const GridSizes first = grid_sizes(loop.inputs[input].first);
-    const GridSizes second = grid_sizes(loop.inputs[input].second);
-    for (std::size_t g = 0; g < phases_; ++g) {
-      for (std::size_t side = 0; side < 2; ++side) {
-        const double place = static_cast<double>(g) - steps * (side == 0 ? loop.low : loop.high);
-        const WideRow one_column = value_at(loop.inputs[input].first, first, place);
-        WideRow other = value_at(loop.inputs[input].second, second, place);
-        other.resize(one_column.size());
-        for (std::size_t form = 0; form < forms_; ++form) {
-          const double size = length(dot(rows[form][g], one_column), dot(rows[form][g], other));
-          const std::size_t before = (g + phases_ - 1) % phases_;
-          sums_[place_of(form, input, g, side)][kept[g]] += size;
-          sums_[place_of(form, input, before, side + 2)][kept[before]] += size;
+  spend(static_cast<std::int64_t>(forms_ * inputs_ * sources_.size() * phases_));
+  rest_.assign(forms_, std::vector<double>(inputs_, 0.0));
+  defect_.assign(states_, std::vector<double>(states_, 0.0));
+  totals_.assign(inputs_, std::vector<double>(states_, 0.0));
+}
+
+/// What does not change from lag to lag, and room for what does.
+class PhaseKernels::Lags {
+ public:
+  Lags(PhaseKernels& kernels, const PhaseLoop& loop)
+      : kernels_(&kernels), loop_(&loop), z_(loop.phases), other_(loop.phases), most_(loop.phases) {
+    for (const GridFunction& form : loop.forms) {
+      form_sizes_.push_back(grid_sizes(form));
+      columns_.emplace_back();
+      for (std::size_t i = 0; i < form.error.size(); ++i) {
+        columns_.back().emplace_back();
+        for (const std::vector<double>& value : form.values) {
+          columns_.back().back().push_back(value[i]);
+        }
+      }
+      rows_.emplace_back(form.error.size(), std::vector<double>(loop.phases));
+    }
+    for (const PhaseInput& input : loop.inputs) {
+      input_sizes_.push_back({grid_sizes(input.first), grid_sizes(input.second)});
+      ends_.push_back({std::array{ShiftedColumn(input.first), ShiftedColumn(input.second)},
+                       std::array{ShiftedColumn(input.first), ShiftedColumn(input.second)}});
+    }
+    for (std::size_t k = 0; k < kernels.forms_ * kernels.inputs_; ++k) {
+      const bool has_one_size = loop.has_one_size[k % kernels.inputs_];
+      sums_.emplace_back((has_one_size ? 1 : kernels.sources_.size()) * loop.phases, 0.0);
+    }
+  }
+
+  /// The sums at the grid points, at the larger one of both frequencies.
+  void add_ends(const NearPowers& powers, const LagPlace& place, std::size_t source) {
+    for (std::size_t form = 0; form < rows_.size(); ++form) {
+      multiply(columns_[form], powers.power(), rows_[form]);
+    }
+    for (std::size_t input = 0; input < ends_.size(); ++input) {
+      for (const std::size_t part : {0U, 1U}) {
+        ends_[input][0][part].shift(place.steps, place.low);
+        ends_[input][1][part].shift(place.steps, place.high);
+      }
+      const std::size_t at = loop_->has_one_size[input] ? 0 : source * loop_->phases;
+      for (std::size_t form = 0; form < rows_.size(); ++form) {
+        size_of(rows_[form], ends_[input][0], z_);
+        size_of(rows_[form], ends_[input][1], most_);
+        double* const sum = sums_[kernels_->place_of(form, input)].data() + at;
+        for (std::size_t g = 0; g < z_.size(); ++g) {
+          // What is infinite or no number at either end stays so.
+          sum[g] += (z_[g] > most_[g] ? z_[g] : most_[g]) + 0.0 * (z_[g] + most_[g]);
         }
       }
     }
   }
-}
 
-void PhaseKernels::add_rest(const PhaseLoop& loop, const MatrixPowers& powers, std::size_t lag) {
-  const Table matrix = sizes_of(powers, loop.columns.size());
-  const double cells = up(1.0 + up(static_cast<double>(lag + 1) * up(loop.high - loop.low)));  // L
-  const double kinks = up(cells * std::ceil(cells)) / 4.0;
-  for (std::size_t i = 0; i < matrix.size(); ++i) {
-    powers_[i] = sum_of(powers_[i], matrix[i]);
-  }
-  for (std::size_t input = 0; input < inputs_; ++input) {
-    for (const GridFunction* column : {&loop.inputs[input].first, &loop.inputs[input].second}) {
-      if (column->values.empty()) {
-        continue;
-      }
-      const GridSizes of_column = grid_sizes(*column);
-      const std::vector<double> whole = sum_of(of_column.value, column->error);
-      for (std::size_t i = 0; i < matrix.size(); ++i) {
-        totals_[input][i] = up(totals_[input][i] + product(matrix[i], whole));
-      }
-      for (std::size_t form = 0; form < forms_; ++form) {
-        const GridSizes of_form = grid_sizes(loop.forms[form]);
-        const std::vector<double> value = through(of_form.value, matrix);
-        rest_[form][input] +=
-            upward_product(product(value, of_column.second_difference), kinks) +
-            product(through(of_form.first_difference, matrix), of_column.first_difference) / 4.0 +
-            product(through(loop.forms[form].error, matrix), whole) + product(value, column->error);
+  void add_rest(const NearPowers& powers, const LagPlace& place, const PhaseStage& stage) {
+    for (std::size_t form = 0; form < form_sizes_.size(); ++form) {
+      const std::vector<double> value = powers.through(form_sizes_[form].value);
+      const std::vector<double> first = powers.through(form_sizes_[form].first_difference);
+      const std::vector<double> error = powers.through(loop_->forms[form].error);
+      for (std::size_t input = 0; input < input_sizes_.size(); ++input) {
+        for (const std::size_t part : {0U, 1U}) {
+          const GridSizes& column = input_sizes_[input][part];
+          const std::vector<double>& column_error = stage.column_errors[input][part];
+          double sum = 0.0;
+          for (std::size_t i = 0; i < column_error.size(); ++i) {
+            // Of computing the values at the ends, too, and their places.
+            const double bend = std::min(place.bend * column.second_difference[i], 2.0 * column.value[i]) +
+                                0x1p-44 * column.value[i] + 2.0 * kPlaceError * column.first_difference[i];
+            sum += value[i] * (bend + column_error[i]) + 0.25 * first[i] * column.first_difference[i] +
+                   error[i] * (column.value[i] + column_error[i]);
+          }
+          kernels_->rest_[form][input] += sum;
+        }
       }
     }
-  }
-}
-
-bool PhaseKernels::close(const PhaseLoop& loop) {
-  std::vector<double> all(defect_.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (const double entry : powers_[i]) {
-      all[i] = up(all[i] + entry);  // at least 1: the powers begin with the identity
-    }
-  }
-  // Which shows that the spectral radius of the defect is below 1, whatever the columns are.
-  if (!closed(defect_, all)) {
-    return false;
-  }
-  for (std::size_t input = 0; input < inputs_; ++input) {
-    const std::optional<std::vector<double>> bound = closed(defect_, totals_[input]);
-    if (!bound) {
-      return false;
-    }
-    for (std::size_t form = 0; form < forms_; ++form) {
-      const std::vector<double> row = sum_of(grid_sizes(loop.forms[form]).value, loop.forms[form].error);
-      rest_[form][input] = up(rest_[form][input] * kManyRoundings + product(through(row, defect_), *bound));
-    }
-  }
-  return true;
-}
-
-void PhaseKernels::collect() {
-  for (std::vector<double>& sums : sums_) {
-    groups_.emplace_back();
-    for (std::size_t index = 0; index < sums.size(); ++index) {
-      if (sums[index] != 0.0) {
-        groups_.back().push_back({index / phases_, index % phases_, up(sums[index] * kManyRoundings)});
+    for (std::size_t input = 0; input < input_sizes_.size(); ++input) {
+      for (const std::size_t part : {0U, 1U}) {
+        std::vector<double> whole = stage.column_errors[input][part];
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+          whole[i] += input_sizes_[input][part].value[i];
+        }
+        const std::vector<double> size = powers.times(whole);
+        for (std::size_t i = 0; i < size.size(); ++i) {
+          kernels_->totals_[input][i] += size[i];
+        }
       }
     }
-    sums = {};
+  }
+
+  [[nodiscard]] Table& sums() { return sums_; }
+  [[nodiscard]] const GridSizes& form_sizes(std::size_t form) const { return form_sizes_[form]; }
+
+ private:
+  /// c G at all grid points, by component.
+  static void multiply(const Table& columns, const Table& power, Table& rows) {
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      double* const row = rows[j].data();
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double* const column = columns[i].data();
+        const double factor = power[i][j];
+        for (std::size_t g = 0; g < rows[j].size(); ++g) {
+          row[g] = (i == 0 ? 0.0 : row[g]) + factor * column[g];
+        }
+      }
+    }
+  }
+
+  static void dot(const Table& rows, const ShiftedColumn& column, std::vector<double>& result) {
+    double* const sum = result.data();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double* const row = rows[i].data();
+      const double* const value = column.component(i).data();
+      for (std::size_t g = 0; g < result.size(); ++g) {
+        sum[g] = (i == 0 ? 0.0 : sum[g]) + row[g] * value[g];
+      }
+    }
+  }
+
+  void size_of(const Table& rows, const std::array<ShiftedColumn, 2>& column, std::vector<double>& size) {
+    dot(rows, column[0], size);
+    if (column[1].is_empty()) {
+      for (double& each : size) {
+        each = std::abs(each);
+      }
+      return;
+    }
+    dot(rows, column[1], other_);
+    for (std::size_t g = 0; g < size.size(); ++g) {
+      size[g] = std::sqrt(size[g] * size[g] + other_[g] * other_[g]);
+    }
+  }
+
+  PhaseKernels* kernels_;
+  const PhaseLoop* loop_;
+  std::vector<GridSizes> form_sizes_;
+  std::vector<std::array<GridSizes, 2>> input_sizes_;
+  std::vector<Table> columns_, rows_;  ///< by form, component and grid point: c and c G
+  std::vector<std::array<std::array<ShiftedColumn, 2>, 2>> ends_;  ///< by input, frequency and component
+  std::vector<double> z_, other_, most_;
+  Table sums_;
+};
+
+void PhaseKernels::sum_up(const PhaseLoop& loop) {
+  Lags lags(*this, loop);
+  NearPowers powers(loop.matrix);
+  std::size_t stage = 0;
+  for (std::size_t lag = 0; lag < horizon_; ++lag) {
+    spend(static_cast<std::int64_t>(forms_ * inputs_ * phases_ / 4));
+    while (stage + 1 < loop.stages.size() && loop.stages[stage + 1].first_lag <= lag) {
+      ++stage;
+    }
+    const LagPlace place(loop, lag);
+    lags.add_ends(powers, place, source_of_lag_[lag]);
+    lags.add_rest(powers, place, loop.stages[stage]);
+    powers.add_defect(loop.stages[stage].matrix_error, lag + 1 == horizon_, defect_);
+    powers.advance();
+  }
+  for (const std::vector<double>& sums : lags.sums()) {
+    sums_.emplace_back();
+    sums_.back().reserve(sums.size());
+    for (const double sum : sums) {
+      sums_.back().push_back(float_above(sum * kManyRoundings));
+    }
+  }
+  const auto settle = [](Table& table) {
+    for (std::vector<double>& row : table) {
+      for (double& entry : row) {
+        entry = entry * kManyRoundings + kManyUnderflows;
+      }
+    }
+  };
+  settle(rest_);
+  settle(defect_);
+  settle(totals_);
+  for (std::size_t form = 0; form < forms_; ++form) {
+    form_sizes_.push_back(lags.form_sizes(form).value);
+    for (std::size_t i = 0; i < states_; ++i) {
+      form_sizes_.back()[i] = up(form_sizes_.back()[i] + loop.forms[form].error[i]);
+    }
   }
 }
 
-std::vector<double> PhaseKernels::contribution(std::size_t form, std::size_t input,
-                                               const std::vector<double>& sizes) const {
-  const auto is_size = [](double x) { return std::isfinite(x) && x >= 0.0; };
-  if (!is_certain_ || sizes.size() != phases_ || !std::all_of(sizes.begin(), sizes.end(), is_size)) {
-    return std::vector<double>(phases_, HUGE_VAL);
+std::vector<double> PhaseKernels::total_of(const std::vector<double>& s) const {
+  NearPowers powers(matrix_);
+  std::vector<double> sum(states_, 0.0);
+  for (std::size_t lag = 0; lag < horizon_; ++lag) {
+    const std::vector<double> size = powers.times(s);
+    for (std::size_t i = 0; i < states_; ++i) {
+      sum[i] += size[i];
+    }
+    powers.advance();
   }
-  Table most = {sizes};  // the largest of 2^level cells from each one on
-  for (std::size_t level = 0; level < levels_; ++level) {
-    std::vector<double> wider(phases_);
+  for (double& entry : sum) {
+    entry = entry * kManyRoundings + kManyUnderflows;
+  }
+  return sum;
+}
+
+std::vector<double> PhaseKernels::largest_from(std::size_t first, const std::vector<double>& s) const {
+  NearPowers powers(matrix_);
+  std::vector<double> most(states_, 0.0);
+  for (std::size_t lag = 0; lag < horizon_; ++lag) {
+    const std::vector<double> size = powers.times(s);
+    for (std::size_t i = 0; i < states_ && lag >= first; ++i) {
+      most[i] = std::isfinite(size[i]) ? std::max(most[i], up(size[i]) + kManyUnderflows) : HUGE_VAL;
+    }
+    powers.advance();
+  }
+  return most;
+}
+
+void PhaseKernels::add(std::size_t form, std::size_t input, const PhaseSizes& sizes, EndSums& sums) const {
+  const std::vector<float>& of = sums_[place_of(form, input)];
+  if (of.size() == phases_) {  // of one size
     for (std::size_t g = 0; g < phases_; ++g) {
-      wider[g] = std::max(most[level][g], most[level][(g + (std::size_t{1} << level)) % phases_]);
+      const double size = sizes.largest;
+      sums.left[g] += size * static_cast<double>(of[g]);
+      sums.right[g] += size * static_cast<double>(of[g + 1 == phases_ ? 0 : g + 1]);
     }
-    most.push_back(std::move(wider));
+    return;
   }
-  const double rest = upward_product(rest_[form][input], *std::max_element(sizes.begin(), sizes.end()));
-  std::vector<double> result(phases_);
-  for (std::size_t cell = 0; cell < phases_; ++cell) {
-    double largest = 0.0;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      double sum = 0.0;
-      for (const Group& group : groups_[place_of(form, input, cell, corner)]) {
-        sum += upward_product(group.sum, most[group.level][group.first]);
-      }
-      largest = std::isfinite(sum) ? std::max(largest, sum) : HUGE_VAL;
+  for (std::size_t source = 0; source < sources_.size(); ++source) {
+    const float* const sum = of.data() + source * phases_;
+    const double* const weight = sizes.most[sources_[source].level].data() + sources_[source].first;
+    for (std::size_t g = 0; g < phases_; ++g) {
+      sums.left[g] += weight[g] * static_cast<double>(sum[g]);
     }
-    const double bound = up(up(largest) * kManyRoundings + rest);
-    result[cell] = std::isfinite(bound) ? bound : HUGE_VAL;
+    for (std::size_t g = 0; g + 1 < phases_; ++g) {
+      sums.right[g] += weight[g] * static_cast<double>(sum[g + 1]);
+    }
+    sums.right[phases_ - 1] += weight[phases_ - 1] * static_cast<double>(sum[0]);
   }
-  return result;
+}
+
+double PhaseKernels::of_form(std::size_t form, const std::vector<double>& bound) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < states_; ++i) {
+    sum += upward_product(form_sizes_[form][i], bound[i]);
+  }
+  return up(sum);
+}
+
+double PhaseKernels::rest(std::size_t form, std::size_t input, const std::vector<double>& bound) const {
+  std::vector<double> late(states_);
+  for (std::size_t i = 0; i < states_; ++i) {
+    for (std::size_t j = 0; j < states_; ++j) {
+      late[i] += upward_product(defect_[i][j], bound[j]);
+    }
+    late[i] = up(late[i]);
+  }
+  return up(rest_[form][input] + of_form(form, late));
 }
 
 }  // namespace veritrack::checker

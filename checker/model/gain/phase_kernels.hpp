@@ -2,6 +2,7 @@
 // the forms depend on the phase (docs/gain-proof.md, section 10).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -9,63 +10,90 @@
 
 namespace veritrack::checker {
 
-/// The columns of an input of two components, in a disc. `second` has no values where there is one component.
+/// Columns of an input of two components, in a disc. `second` has no values where there is one component.
 struct PhaseInput {
   GridFunction first;
   GridFunction second;
 };
 
-/// A loop at the frequencies of a part, which are constant. Sizes of numbers are those of doubles: all of
-/// them have to be finite, or nothing is certain.
+/// What earlier samples, whose frequencies may be in other parts, may differ by, from a lag on.
+struct PhaseStage {
+  std::size_t first_lag = 0;
+  Table matrix_error;                                             ///< of A^(k), from the matrix of the loop
+  std::vector<std::array<std::vector<double>, 2>> column_errors;  ///< by input and its component
+};
+
+/// A loop at the frequencies of a part. Sizes of numbers are those of doubles: all of them have to be finite,
+/// or nothing is valid.
 struct PhaseLoop {
   std::size_t phases = 0;        ///< N
   std::size_t horizon = 0;       ///< K, at most 2^16
   double low = 0.0, high = 0.0;  ///< enclose the frequencies, in parts of a turn of 2 pi/N per sample
-  std::vector<WideRow> columns;  ///< of the matrix, at all phases and frequencies
+  double slew = 0.0;             ///< W in the same unit
+  Table matrix;                  ///< the powers of which are taken, row by row
   std::vector<GridFunction> forms;
   std::vector<PhaseInput> inputs;
+  std::vector<PhaseStage> stages;  ///< from lag 0 on, by lag
+  std::vector<bool> has_one_size;  ///< by input: the same size at all phases
+};
+
+/// Sizes of an input by cell of phases: the largest of 2^level cells from each one on, twice around.
+struct PhaseSizes {
+  explicit PhaseSizes(const std::vector<double>& sizes);
+  Table most;
+  double largest = 0.0;
+};
+
+/// Sums over the lags; of cells of phases, by the grid points at both ends.
+struct EndSums {
+  std::vector<double> left, right;
 };
 
 class PhaseKernels {
  public:
   explicit PhaseKernels(const PhaseLoop& loop);
 
-  /// Whether all sums are bounded, and what starts and early inputs leave dies out. Nothing else is known
-  /// where it is not so.
-  [[nodiscard]] bool is_certain() const { return is_certain_; }
-  /// A bound, by the cell of the phase of the form, of what an input of earlier samples with these sizes
-  /// adds, by the cell of the phase of its step. Infinite where it is not known.
-  [[nodiscard]] std::vector<double> contribution(std::size_t form, std::size_t input,
-                                                 const std::vector<double>& sizes) const;
-  /// The part of a bound that is for the largest of the sizes.
-  [[nodiscard]] double rest(std::size_t form, std::size_t input) const { return rest_[form][input]; }
+  /// Whether the loop is one: nothing else is known where it is not.
+  [[nodiscard]] bool is_valid() const { return is_valid_; }
+  /// M, by which the bounds T of all sums are closed.
+  [[nodiscard]] const Table& defect() const { return defect_; }
+  /// sum of |G_k|(|B| + error), of an input.
+  [[nodiscard]] const std::vector<double>& total(std::size_t input) const { return totals_[input]; }
+  /// sum of |G_k|s.
+  [[nodiscard]] std::vector<double> total_of(const std::vector<double>& s) const;
+  /// The largest |G_k|s over the lags from `first` on.
+  [[nodiscard]] std::vector<double> largest_from(std::size_t first, const std::vector<double>& s) const;
+
+  /// Adds what this input contributes to a form, but for the rest; sizes of as many phases as the loop has.
+  void add(std::size_t form, std::size_t input, const PhaseSizes& sizes, EndSums& sums) const;
+  /// What goes with the largest of its sizes, where all sums of the input are at most `bound`.
+  [[nodiscard]] double rest(std::size_t form, std::size_t input, const std::vector<double>& bound) const;
+  /// (|c| + error) bound.
+  [[nodiscard]] double of_form(std::size_t form, const std::vector<double>& bound) const;
 
  private:
-  /// A sum over the lags whose inputs come from 2^level cells from `first` on.
-  struct Group {
+  /// 2^level cells from `first` on, counted from the cell of the form.
+  struct Source {
     std::size_t level = 0;
     std::size_t first = 0;
-    double sum = 0.0;
   };
-  using Groups = std::vector<Group>;
+  class Lags;
 
-  void add_corners(const PhaseLoop& loop, const MatrixPowers& powers, std::size_t lag);
-  void add_rest(const PhaseLoop& loop, const MatrixPowers& powers, std::size_t lag);
-  [[nodiscard]] bool close(const PhaseLoop& loop);
-  void collect();
-  [[nodiscard]] std::size_t place_of(std::size_t form, std::size_t input, std::size_t cell,
-                                     std::size_t corner) const {
-    return ((form * inputs_ + input) * phases_ + cell) * 4 + corner;
+  void allocate(const PhaseLoop& loop);
+  void sum_up(const PhaseLoop& loop);
+  [[nodiscard]] std::size_t place_of(std::size_t form, std::size_t input) const {
+    return form * inputs_ + input;
   }
 
-  std::size_t phases_, forms_, inputs_, levels_ = 0;
-  Table sums_;                  ///< by place_of, then level and first cell
-  std::vector<Groups> groups_;  ///< the same without those that are 0
-  Table rest_;                  ///< by form and input
-  Table defect_;                ///< M
-  Table totals_;                ///< sum of |G_k| |B|, by input and state
-  Table powers_;                ///< sum of |G_k|
-  bool is_certain_ = false;
+  std::size_t phases_, states_, horizon_, forms_, inputs_, levels_ = 0;
+  Table matrix_;
+  std::vector<Source> sources_;             ///< of all lags, each once
+  std::vector<std::size_t> source_of_lag_;  ///< the number
+  std::vector<std::vector<float>> sums_;    ///< by place_of, then source and grid point
+  Table rest_;                              ///< by form and input
+  Table form_sizes_;                        ///< |c| + error, by form and state
+  Table defect_, totals_;
+  bool is_valid_ = false;
 };
 
 }  // namespace veritrack::checker

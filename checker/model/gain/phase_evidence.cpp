@@ -1,0 +1,178 @@
+#include "checker/model/gain/phase_evidence.hpp"
+
+#include <utility>
+
+#include "checker/model/gain/exact_number.hpp"
+#include "checker/model/jet.hpp"
+#include "checker/model/series_evidence.hpp"
+#include "checker/model/turn_count.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr long kFewestPhases = 8;
+constexpr long kMostPhasesOfGains = 512;
+constexpr long kLongestHorizonOfPhases = 1L << 16;
+constexpr long kMostPartsOfCell = 4096;
+constexpr long kMostTurnsOfCurve = 1000;
+
+/// sum over d of d c_hd z^(d - 1). Products with these whole numbers are rounded once, which sums of series
+/// allow for (HarmonicBasis).
+PhaseSeries derivative_of(const PhaseSeries& series) {
+  PhaseSeries result;
+  for (const auto& harmonic : series) {
+    result.emplace_back();
+    for (std::size_t d = 1; d < harmonic.size(); ++d) {
+      result.back().push_back(static_cast<double>(d) * harmonic[d]);
+    }
+  }
+  return result;
+}
+
+PhaseCell read_cell(const Tree& tree, const ModelRecursion& recursion, Objections& objections) {
+  const std::size_t n = recursion.states();
+  PhaseCell cell;
+  cell.tube.frequency = double_from(tree.at("frequency"));
+  cell.tube.half_width = double_from(tree.at("half_width"));
+  const long parts = tree.at("parts").integer();
+  cell.tube.curve = series_from(tree.at("curve"));
+  cell.tube.shape = series_from(tree.at("basis"));
+  bool is_possible = parts >= 1 && parts <= kMostPartsOfCell;
+  for (const Tree& turns : tree.at("turns").elements()) {
+    const long count = turns.integer();
+    const std::size_t state = cell.tube.turns.size();
+    is_possible = is_possible && count <= kMostTurnsOfCurve && count >= -kMostTurnsOfCurve &&
+                  (count == 0 || (state < n && recursion.is_angle()[state]));
+    cell.tube.turns.push_back(count);
+  }
+  for (const Tree& polynomial : tree.at("matrix").elements()) {
+    cell.matrix.push_back(doubles_from(polynomial));
+    is_possible = is_possible && cell.matrix.back().size() <= kMostPowers;
+  }
+  if (!is_possible || !certainly_positive(Ball(cell.tube.half_width)) || cell.tube.turns.size() != n ||
+      cell.tube.curve.size() != n || cell.tube.shape.size() != n * n || cell.matrix.size() != n * n) {
+    objections.emplace_back("a cell of gains is not one of this tracker");
+    return cell;
+  }
+  cell.parts = static_cast<std::size_t>(parts);
+  cell.slope.frequency = cell.tube.frequency;
+  cell.slope.half_width = cell.tube.half_width;
+  cell.slope.turns.assign(n, 0);
+  for (const PhaseSeries& series : cell.tube.curve) {
+    cell.slope.curve.push_back(derivative_of(series));
+  }
+  for (const PhaseSeries& series : cell.tube.shape) {
+    cell.slope.shape.push_back(derivative_of(series));
+  }
+  return cell;
+}
+
+std::vector<PhaseCell> read_cells(const Tree& list, const ModelRecursion& recursion,
+                                  const ModelDesign& design, Objections& objections) {
+  std::vector<PhaseCell> cells;
+  TubeSet band;
+  for (const Tree& tree : list.elements()) {
+    cells.push_back(read_cell(tree, recursion, objections));
+    band.tubes.push_back(cells.back().tube);
+  }
+  check_order(band, objections);
+  if (!covers(band, design.lowest, design.highest)) {
+    objections.emplace_back("the cells of gains do not cover the band");
+  }
+  if (design.moves() && cells.size() != 1) {
+    objections.emplace_back("with a slew, one cell has to cover the band");
+  }
+  return cells;
+}
+
+void check_phase_design(const ModelRecursion& recursion, const ModelDesign& design, Objections& objections) {
+  if (recursion.filtered() > 0 || design.deviation || design.amplitude_varies ||
+      design.is_constant_in_range || !design.start.empty()) {
+    objections.emplace_back(
+        "gains with phases are for a recursion on a signal of one known amplitude, in bounded noise");
+  }
+  if (recursion.samples() == 1 &&
+      !(certainly_positive(design.lowest) && certainly_less(design.highest, pi()))) {
+    objections.emplace_back("in one channel, gains are for frequencies between 0 and pi");
+  }
+  if (const std::string objection = angle_objection(recursion); !objection.empty()) {
+    objections.push_back(objection);
+  }
+}
+
+/// The steady state at one frequency and so many phases. Nothing rests on it but the order of factors.
+std::vector<SteadyPoint> steady_points(const TrackedModel& model, const PhaseCell& cell, std::size_t phases) {
+  std::vector<SteadyPoint> points;
+  for (std::size_t g = 0; g < phases; ++g) {
+    const TubePart place = TubePart::of_grid(g, phases, 0, 1).middle();
+    points.emplace_back();
+    for (const BallPolynomial& state : TubeOver(cell.tube, place, 0).curve) {
+      points.back().states.push_back(state.constant());
+    }
+    for (const BallPolynomial& sample : signal_later(model, cell.tube, place)) {
+      points.back().samples.push_back(sample.constant());
+    }
+  }
+  return points;
+}
+
+/// By state, the derivative of the frequency at all states.
+std::vector<Ball> factors_of_frequency(const ModelRecursion& recursion) {
+  const std::size_t n = recursion.states();
+  std::vector<Jet<Ball>> states;
+  for (std::size_t i = 0; i < n; ++i) {
+    states.push_back(Jet<Ball>::variable(Ball::everything(), i, n));
+  }
+  const Jet<Ball> frequency = recursion.frequency(states);
+  std::vector<Ball> factors;
+  for (std::size_t i = 0; i < n; ++i) {
+    factors.push_back(frequency.slope(i));
+  }
+  return factors;
+}
+
+}  // namespace
+
+std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedModel& model,
+                                              const ModelDesign& design, Objections& objections) {
+  const ModelRecursion& recursion = *model.recursion;
+  const long phases = gains.at("phases").integer();
+  const long horizon = gains.at("horizon").integer();
+  if (phases < kFewestPhases || phases > kMostPhasesOfGains || (phases & (phases - 1)) != 0 || horizon < 1 ||
+      horizon > kLongestHorizonOfPhases) {
+    objections.emplace_back("phases are a power of 2 from 8 to 512, and a horizon is at most 65536");
+  }
+  check_phase_design(recursion, design, objections);
+  const std::vector<PhaseCell> cells = read_cells(gains.at("cells"), recursion, design, objections);
+  if (!objections.empty()) {
+    return nullptr;
+  }
+  try {
+    PhaseLoopEvidence evidence;
+    evidence.phases = static_cast<std::size_t>(phases);
+    evidence.horizon = static_cast<std::size_t>(horizon);
+    evidence.frequency_factors = factors_of_frequency(recursion);
+    evidence.structure =
+        phase_structure(with_small_factors_last(recorded_step(recursion),
+                                                steady_points(model, cells.front(), evidence.phases)),
+                        recursion.states(), recursion.samples());
+    for (const PhaseCell& cell : cells) {
+      evidence.cells.emplace_back();
+      for (std::size_t part = 0; part < cell.parts; ++part) {
+        evidence.cells.back().push_back(
+            phase_part(evidence.structure, model, cell, part, evidence.phases));
+      }
+    }
+    auto bounds = std::make_unique<PhaseBounds>(std::move(evidence));
+    if (bounds->is_certain(design.slew)) {
+      return bounds;
+    }
+    objections.emplace_back("the loop is not stable, or the horizon is too short");
+  } catch (const NotCovered& reason) {
+    objections.emplace_back(reason.what());
+  }
+  return nullptr;
+}
+
+}  // namespace veritrack::checker

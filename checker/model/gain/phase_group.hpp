@@ -1,0 +1,62 @@
+// Parts of the band that are bounded together: all of them where the frequency moves, else each by itself
+// (docs/gain-proof.md, section 10).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "checker/model/gain/phase_kernels.hpp"
+#include "checker/model/gain/phase_part.hpp"
+
+namespace veritrack::checker {
+
+/// At least given + M T for all of these, or nothing.
+std::optional<std::vector<double>> closed_together(const std::vector<const Table*>& defects,
+                                                   const std::vector<std::vector<double>>& given);
+
+class PhaseGroup {
+ public:
+  /// For changes of the frequency of at most `slew` in a sample (rad/sample); 0: the parts are one. The parts
+  /// go from low frequencies to high ones, and must outlive this.
+  PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, std::size_t horizon, double slew);
+
+  /// Whether all sums are bounded, and what starts and early inputs leave dies out. Nothing else is known
+  /// where it is not so.
+  [[nodiscard]] bool is_certain() const { return is_certain_; }
+  [[nodiscard]] std::size_t size() const { return parts_.size(); }
+  [[nodiscard]] const PhasePart& part(std::size_t number) const { return *parts_[number]; }
+  [[nodiscard]] const PhaseKernels& kernels(std::size_t number) const { return kernels_[number]; }
+  [[nodiscard]] std::size_t phases() const { return phases_; }
+  [[nodiscard]] double slew() const { return slew_; }
+
+  /// What goes with the largest size of an input.
+  [[nodiscard]] double rest(std::size_t part, std::size_t form, std::size_t input) const {
+    return rests_[part][form][input];
+  }
+  /// What the residual of the curve adds to a form.
+  [[nodiscard]] double of_residual(std::size_t part, std::size_t form) const {
+    return residuals_[part][form];
+  }
+  /// M p, where p bounds all products of matrices with these deviations from the steady state, by part;
+  /// nothing where it is not known.
+  [[nodiscard]] std::optional<Table> late_starts(const std::vector<double>& start) const;
+  /// Deviations of eta, from those of the states.
+  [[nodiscard]] std::vector<double> components(std::size_t part, const std::vector<double>& start) const;
+
+ private:
+  struct Widened;
+  [[nodiscard]] std::optional<Widened> widened(const PhasePart& part) const;
+  [[nodiscard]] std::vector<PhaseStage> stages(const std::vector<Widened>& all, std::size_t part) const;
+  [[nodiscard]] bool close(const std::vector<Widened>& all);
+  [[nodiscard]] std::vector<const Table*> defects() const;
+
+  std::vector<const PhasePart*> parts_;
+  std::size_t phases_;
+  double slew_;
+  std::vector<PhaseKernels> kernels_;
+  std::vector<Table> rests_;  ///< by part, form and input
+  Table residuals_;           ///< by part and form
+  bool is_certain_ = false;
+};
+
+}  // namespace veritrack::checker

@@ -1,0 +1,54 @@
+// The sums of phase_kernels.hpp, lag by lag.
+#pragma once
+
+#include "checker/model/gain/phase_kernels.hpp"
+
+namespace veritrack::checker {
+
+/// Of sums of at most 2^17 numbers that are not negative, one after the other, and of what is added to them.
+constexpr double kManyRoundings = 1.0 + 0x1p-34;
+/// More than all that such sums lose to underflow.
+constexpr double kManyUnderflows = 0x1p-900;
+
+/// Powers of a matrix in doubles, and what they differ by from products of matrices near it.
+class NearPowers {
+ public:
+  explicit NearPowers(const Table& matrix);
+  [[nodiscard]] const Table& power() const { return power_; }
+  /// |row| |G|.
+  [[nodiscard]] std::vector<double> through(const std::vector<double>& row) const;
+  /// |G| column.
+  [[nodiscard]] std::vector<double> times(const std::vector<double>& column) const;
+  void advance();
+  /// Adds sup |G_(k+1) - G_k A|; the power after the last one is 0.
+  void add_defect(const Table& matrix_error, bool is_last, Table& defect) const;
+
+ private:
+  const Table* matrix_;
+  Table power_;
+};
+
+/// Where the inputs of a lag come from.
+struct LagPlace {
+  LagPlace(const PhaseLoop& loop, std::size_t lag);
+  double low = 0.0, high = 0.0;  ///< omega_p -+ d_k, in parts of a turn
+  double steps = 1.0;            ///< k + 1
+  double bend = 0.0;             ///< F_k
+  std::size_t first = 0;         ///< the first cell, counted from that of the form
+  double cells = 1.0;            ///< from the first cell on
+};
+
+/// The values of a column at the phases of all grid points less `steps` times a frequency, by component.
+class ShiftedColumn {
+ public:
+  explicit ShiftedColumn(const GridFunction& column);
+  void shift(double steps, double frequency);
+  [[nodiscard]] const std::vector<double>& component(std::size_t i) const { return shifted_[i]; }
+  [[nodiscard]] bool is_empty() const { return twice_.empty(); }
+
+ private:
+  Table twice_;  ///< the values twice around, by component
+  Table shifted_;
+};
+
+}  // namespace veritrack::checker

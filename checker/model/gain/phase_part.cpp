@@ -1,0 +1,219 @@
+#include "checker/model/gain/phase_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checker/model/gain/exact_number.hpp"
+#include "checker/model/place_powers.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// A function over a cell of phases: its values at both ends, in the middle of the frequencies, and how far
+/// it is from the line between them at any phase and frequency.
+struct Chord {
+  double left = 0.0, right = 0.0, distance = 0.0;
+};
+
+/// 1 - s^2, |s - s^3| and 1 - s^4 are at most 1, 2/27^(1/2) and 1.
+Chord chord_of(const BallPolynomial& x) {
+  constexpr std::array<double, 5> kFromChord = {0.0, 0.0, 1.0, 0.3850, 1.0};
+  Chord chord;
+  const std::span<const double> places = x.block(0, 0);
+  double size = 0.0;
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    const Powers powers = powers_at(place);
+    const double coefficient = places[place];
+    size += std::abs(coefficient);
+    if (powers.of_z > 0) {
+      chord.distance += std::abs(coefficient);
+      continue;
+    }
+    chord.left += powers.of_s % 2 == 0 ? coefficient : -coefficient;
+    chord.right += coefficient;
+    chord.distance += kFromChord[static_cast<std::size_t>(powers.of_s)] * std::abs(coefficient);
+  }
+  chord.distance = up(chord.distance + x.error() + upward_product(0x1p-46, size));
+  return chord;
+}
+
+/// A vector function of all phases: from its chords, by component and cell of phases.
+GridFunction grid_from(const std::vector<std::vector<Chord>>& chords) {
+  GridFunction result;
+  const std::size_t phases = chords.empty() ? 0 : chords.front().size();
+  result.values.assign(phases, std::vector<double>(chords.size()));
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    double error = 0.0;
+    bool is_known = true;
+    for (std::size_t g = 0; g < phases; ++g) {
+      const Chord& chord = chords[i][g];
+      const double next = chords[i][(g + 1) % phases].left;
+      result.values[g][i] = chord.left;
+      const double distance = up(chord.distance + std::abs(chord.right - next));
+      is_known = is_known && std::isfinite(distance);
+      error = std::max(error, distance);
+    }
+    result.error.push_back(is_known ? error : HUGE_VAL);
+  }
+  return result;
+}
+
+using Chords = std::vector<std::vector<Chord>>;
+
+/// Adds a cell of phases.
+void add_cell(Chords& chords, const PolynomialRow& row) {
+  chords.resize(row.size());
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    chords[i].push_back(chord_of(row[i]));
+  }
+}
+
+void raise(double& most, const Ball& value) {
+  most = std::max(most, upper(abs(value)));
+}
+
+void raise(Table& most, const PolynomialMatrix& matrix) {
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    for (std::size_t j = 0; j < matrix[i].size(); ++j) {
+      raise(most[i][j], matrix[i][j].range());
+    }
+  }
+}
+
+/// Near the polynomials of the certificate at z.
+Table matrix_near(const PhaseCell& cell, double z, std::size_t n) {
+  Table matrix(n, std::vector<double>(n));
+  for (std::size_t i = 0; i < n * n; ++i) {
+    double value = 0.0;
+    for (std::size_t d = cell.matrix[i].size(); d-- > 0;) {
+      value = value * z + cell.matrix[i][d];
+    }
+    matrix[i / n][i % n] = value;
+  }
+  return matrix;
+}
+
+/// sum over h and d of d (d - 1) |c_hd|/D^2.
+Ball bound_of_second_derivative(const PhaseSeries& series, double half_width) {
+  Ball sum;
+  for (const auto& harmonic : series) {
+    for (std::size_t d = 2; d < harmonic.size(); ++d) {
+      const Ball size = sqrt(square(Ball(harmonic[d].real())) + square(Ball(harmonic[d].imag())));
+      sum += Ball(static_cast<double>(d * (d - 1))) * size;
+    }
+  }
+  return sum / square(Ball(half_width));
+}
+
+/// Collects what the runs over all cells of phases say.
+class PartCollection {
+ public:
+  PartCollection(const PhaseStructure& structure, const PhaseCell& cell, double z)
+      : structure_(&structure), forms_(structure.forms.size()) {
+    const std::size_t n = structure.states;
+    part_.matrix = matrix_near(cell, z, n);
+    part_.matrix_error.assign(n, std::vector<double>(n, 0.0));
+    part_.inverse = part_.turned = part_.matrix_error;
+    part_.residual.assign(n, 0.0);
+    part_.half_width = cell.tube.half_width;
+    for (std::size_t i = 0; i < n; ++i) {
+      part_.curve_bend.push_back(upper(bound_of_second_derivative(cell.tube.curve[i], part_.half_width)));
+      part_.basis_bend.emplace_back();
+      for (std::size_t j = 0; j < n; ++j) {
+        part_.basis_bend.back().push_back(
+            upper(bound_of_second_derivative(cell.tube.shape[i * n + j], part_.half_width)));
+      }
+    }
+    columns_.resize(structure.channels + structure.inputs.size());
+  }
+
+  void add(PhaseRun run) {
+    const std::size_t n = structure_->states;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        raise(part_.matrix_error[i][j],
+              (run.columns[j][i] - BallPolynomial(part_.matrix[i][j])).range());
+      }
+      raise(part_.residual[i], run.residual[i].range());
+    }
+    raise(part_.inverse, run.inverse);
+    raise(part_.turned, run.turned);
+    for (std::size_t form = 0; form < forms_.size(); ++form) {
+      add_cell(forms_[form], run.forms[form]);
+    }
+    for (std::size_t column = 0; column < columns_.size(); ++column) {
+      add_cell(columns_[column], run.columns[n + column]);
+    }
+    add_cell(slew_, run.slew);
+    part_.cells.push_back({std::move(run.rules), std::move(run.direct), std::move(run.to_input),
+                           doubles_around(run.bias.range()),
+                           doubles_around(run.bias.mean_over_phase().range())});
+  }
+
+  [[nodiscard]] PhasePart part() {
+    for (const Chords& chords : forms_) {
+      part_.forms.push_back(grid_from(chords));
+    }
+    part_.inputs.push_back({grid_from(columns_[0]),
+                            structure_->channels > 1 ? grid_from(columns_[1]) : GridFunction{}});
+    part_.inputs.push_back({grid_from(slew_), {}});
+    for (std::size_t column = structure_->channels; column < columns_.size(); ++column) {
+      part_.inputs.push_back({grid_from(columns_[column]), {}});
+    }
+    return std::move(part_);
+  }
+
+ private:
+  const PhaseStructure* structure_;
+  PhasePart part_;
+  std::vector<Chords> forms_, columns_;
+  Chords slew_;
+};
+
+bool is_known(const PhasePart& part, std::size_t phases, std::size_t states) {
+  const auto is_size = [](double x) { return std::isfinite(x) && x >= 0.0; };
+  const auto are_sizes = [&](const std::vector<double>& row) {
+    return std::all_of(row.begin(), row.end(), is_size);
+  };
+  const auto are_rows = [&](const Table& table) {
+    return std::all_of(table.begin(), table.end(), are_sizes);
+  };
+  const auto is_grid = [&](const GridFunction& f) { return is_grid_function(f, phases, states); };
+  return are_rows(part.matrix_error) && are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
+         are_sizes(part.residual) && are_sizes(part.curve_bend) && part.cells.size() == phases &&
+         std::all_of(part.forms.begin(), part.forms.end(), is_grid) &&
+         std::all_of(part.inputs.begin(), part.inputs.end(), [&](const PhaseInput& input) {
+           return is_grid(input.first) && (input.second.values.empty() || is_grid(input.second));
+         });
+}
+
+}  // namespace
+
+TubePart place_of_part(std::size_t part, std::size_t parts, std::size_t phase, std::size_t phases) {
+  const auto count = static_cast<double>(parts);
+  TubePart place = TubePart::of_grid(phase, phases, 0, 1);
+  place.z = (static_cast<double>(2 * part + 1) - count) / count;
+  place.half_z = (1.0 + 0x1p-36) / count;  // more than the rounding of both takes away
+  return place;
+}
+
+PhasePart phase_part(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
+                     std::size_t part, std::size_t phases) {
+  const TubePart whole = place_of_part(part, cell.parts, 0, phases);
+  PartCollection collection(structure, cell, whole.z);
+  for (std::size_t g = 0; g < phases; ++g) {
+    collection.add(run_over(structure, model, cell, place_of_part(part, cell.parts, g, phases)));
+  }
+  PhasePart result = collection.part();
+  const Ball width(cell.tube.half_width);
+  const Ball middle = Ball(cell.tube.frequency) + width * Ball(whole.z);
+  result.lowest = (middle - width * Ball(whole.half_z)).lower();
+  result.highest = (middle + width * Ball(whole.half_z)).upper();
+  if (!is_known(result, phases, structure.states)) {
+    throw NotCovered("a slope of the step is not bounded");
+  }
+  return result;
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,255 @@
+#include "checker/model/gain/phase_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "checker/model/gain/exact_number.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// Not below the size of any value.
+double supremum(const BallPolynomial& x) {
+  return largest_in(doubles_around(x.range()));
+}
+
+/// A value as its base and slopes, by variable.
+struct SlopedValue {
+  BallPolynomial base;
+  std::map<std::size_t, BallPolynomial> slopes;
+
+  void add(const SlopedValue& operand, const BallPolynomial& factor) {
+    for (const auto& [variable, slope] : operand.slopes) {
+      slopes[variable] += factor * slope;
+    }
+  }
+  [[nodiscard]] BallPolynomial slope(std::size_t variable) const {
+    const auto found = slopes.find(variable);
+    return found == slopes.end() ? BallPolynomial() : found->second;
+  }
+};
+
+class StepRun {
+ public:
+  StepRun(const PhaseStructure& structure, const TubeOver& here, std::vector<BallPolynomial> signal)
+      : structure_(&structure), here_(&here), signal_(std::move(signal)) {
+    run_.rules.resize(structure.rules.size());
+    run_.to_input.assign(structure.rules.size(), 0.0);
+    for (std::size_t node = 0; node < structure.graph.nodes.size(); ++node) {
+      values_.push_back(value(node));
+      if (!values_.back().base.known()) {
+        throw NotCovered("a value of the step is not certainly defined on the curve");
+      }
+      take_remainders(node, values_.back());
+    }
+    read_forms();
+  }
+
+  [[nodiscard]] PhaseRun& run() { return run_; }
+  [[nodiscard]] const SlopedValue& of(std::size_t node) const { return values_[node]; }
+
+ private:
+  [[nodiscard]] SlopedValue value(std::size_t node) {
+    const PhaseNode& of = structure_->graph.nodes[node];
+    SlopedValue result;
+    switch (of.operation) {
+      case PhaseOperation::number:
+        result.base = BallPolynomial(of.low);
+        return result;
+      case PhaseOperation::state:
+        result.base = here_->curve[of.first];
+        for (std::size_t j = 0; j < structure_->states; ++j) {
+          result.slopes[j] = here_->shape[of.first * structure_->states + j];
+        }
+        return result;
+      case PhaseOperation::sample:
+        result.base = signal_[of.first];
+        result.slopes[structure_->noise(of.first)] = BallPolynomial(1.0);
+        return result;
+      default:
+        break;
+    }
+    const bool has_two = operands_of(of) > 1;
+    const SlopedValue none;
+    const SlopedValue& first = values_[of.first];
+    const SlopedValue& second = has_two ? values_[of.second] : none;
+    RuleResult rule = base_of(of, first.base, second.base);
+    result.base = std::move(rule.base);
+    result.add(first, rule.by_first);
+    if (has_two) {
+      result.add(second, rule.by_second);
+    }
+    if (const std::optional<std::size_t> number = structure_->rule_of[node]) {
+      run_.rules[*number] = rule.range;
+      if (of.operation != PhaseOperation::within) {
+        result.slopes[structure_->remainder(*number)] += BallPolynomial(1.0);
+      }
+    }
+    return result;
+  }
+
+  /// Remainders become an input in the value that is their gate.
+  void take_remainders(std::size_t node, SlopedValue& value) {
+    const std::optional<std::size_t> input = structure_->input_of[node];
+    if (!input) {
+      return;
+    }
+    for (std::size_t r = 0; r < structure_->rules.size(); ++r) {
+      if (structure_->rules[r].input == input) {
+        run_.to_input[r] = supremum(value.slope(structure_->remainder(r)));
+        value.slopes.erase(structure_->remainder(r));
+      }
+    }
+    value.slopes[structure_->input(*input)] = BallPolynomial(1.0);
+  }
+
+  void read_forms() {
+    for (const std::size_t node : structure_->forms) {
+      run_.forms.emplace_back();
+      run_.direct.emplace_back();
+      for (std::size_t j = 0; j < structure_->states; ++j) {
+        run_.forms.back().push_back(values_[node].slope(j));
+      }
+      for (const auto& [variable, slope] : values_[node].slopes) {
+        if (variable >= structure_->states) {
+          run_.direct.back().emplace_back(variable, supremum(slope));
+        }
+      }
+    }
+  }
+
+  const PhaseStructure* structure_;
+  const TubeOver* here_;
+  std::vector<BallPolynomial> signal_;
+  std::vector<SlopedValue> values_;
+  PhaseRun run_;
+};
+
+PolynomialRow product_of(const PolynomialMatrix& matrix, const PolynomialRow& column) {
+  PolynomialRow result;
+  for (const PolynomialRow& row : matrix) {
+    BallPolynomial sum;
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      sum += row[j] * column[j];
+    }
+    result.push_back(std::move(sum));
+  }
+  return result;
+}
+
+PolynomialMatrix product_of(const PolynomialMatrix& x, const PolynomialMatrix& y) {
+  PolynomialMatrix result(x.size(), PolynomialRow(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        result[i][j] += x[i][k] * y[k][j];
+      }
+    }
+  }
+  return result;
+}
+
+/// The row from `first` on whose entry in that column is certainly farthest from 0.
+std::size_t best_pivot(const PolynomialMatrix& matrix, std::size_t first) {
+  std::size_t best = first;
+  double farthest = 0.0;
+  for (std::size_t row = first; row < matrix.size(); ++row) {
+    const Ball entry = abs(matrix[row][first].range());
+    const double least = entry.finite() ? entry.lower_double() : 0.0;
+    if (least > farthest) {
+      farthest = least;
+      best = row;
+    }
+  }
+  if (!(farthest > 0.0)) {
+    throw NotCovered("the basis is not certainly invertible");
+  }
+  return best;
+}
+
+/// The variables of the step of which new components are functions.
+std::vector<std::size_t> variables_of_step(const PhaseStructure& structure) {
+  std::vector<std::size_t> variables;
+  for (std::size_t v = 0; v < structure.remainder(0); ++v) {
+    variables.push_back(v);
+  }
+  for (std::size_t input = 0; input < structure.inputs.size(); ++input) {
+    variables.push_back(structure.input(input));
+  }
+  return variables;
+}
+
+PolynomialMatrix square_of(const std::vector<BallPolynomial>& entries, std::size_t n) {
+  PolynomialMatrix matrix(n);
+  for (std::size_t i = 0; i < n * n; ++i) {
+    matrix[i / n].push_back(entries[i]);
+  }
+  return matrix;
+}
+
+}  // namespace
+
+PolynomialMatrix inverse_of(PolynomialMatrix matrix) {
+  const std::size_t n = matrix.size();
+  PolynomialMatrix result(n, PolynomialRow(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    result[i][i] = BallPolynomial(1.0);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t pivot = best_pivot(matrix, i);
+    std::swap(matrix[i], matrix[pivot]);
+    std::swap(result[i], result[pivot]);
+    const BallPolynomial inverse = reciprocal(matrix[i][i]);
+    for (std::size_t j = 0; j < n; ++j) {
+      matrix[i][j] = inverse * matrix[i][j];
+      result[i][j] = inverse * result[i][j];
+    }
+    for (std::size_t row = 0; row < n; ++row) {
+      const BallPolynomial factor = matrix[row][i];
+      for (std::size_t j = 0; j < n && row != i; ++j) {
+        matrix[row][j] -= factor * matrix[i][j];
+        result[row][j] -= factor * result[i][j];
+      }
+    }
+  }
+  return result;
+}
+
+PhaseRun run_over(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
+                  const TubePart& part) {
+  const std::size_t n = structure.states;
+  const TubeOver here(cell.tube, part, 0);
+  const TubeOver there(cell.tube, part, 1);
+  StepRun step(structure, here, signal_later(model, cell.tube, part));
+  PhaseRun run = std::move(step.run());
+  run.bias = step.of(structure.graph.frequency).base - frequency_over(cell.tube, part);
+  run.inverse = inverse_of(square_of(there.shape, n));
+  PolynomialRow residual;
+  for (std::size_t i = 0; i < n; ++i) {
+    residual.push_back(step.of(structure.graph.results[i]).base - there.curve[i]);
+  }
+  run.residual = product_of(run.inverse, residual);
+  for (const std::size_t variable : variables_of_step(structure)) {
+    PolynomialRow column;
+    for (const std::size_t result : structure.graph.results) {
+      column.push_back(step.of(result).slope(variable));
+    }
+    run.columns.push_back(product_of(run.inverse, column));
+  }
+  const TubeOver slope(cell.slope, part, 1);
+  const BallPolynomial per_frequency(one / Ball(cell.tube.half_width));
+  for (const BallPolynomial& entry : product_of(run.inverse, slope.curve)) {
+    run.slew.push_back(-(per_frequency * entry));
+  }
+  for (PolynomialRow& row : product_of(run.inverse, square_of(slope.shape, n))) {
+    run.turned.emplace_back();
+    for (const BallPolynomial& entry : row) {
+      run.turned.back().push_back(per_frequency * entry);
+    }
+  }
+  return run;
+}
+
+}  // namespace veritrack::checker

@@ -37,8 +37,7 @@ class GainClaims {
   [[nodiscard]] Errors assumed_errors() const;
   /// From all starts in which the one state that the frequency is a multiple of has frequency errors up to
   /// `reach`, at every phase.
-  [[nodiscard]] Errors errors_from(const Ball& reach, const Ball& noise,
-                                                      const Ball& slew) const;
+  [[nodiscard]] Errors errors_from(const Ball& reach, const Ball& noise, const Ball& slew) const;
   /// They stay at or below this, which is nearer to the true lock than to any other that the formulas show
   /// (false_lock.hpp).
   [[nodiscard]] bool is_lock(const Errors& errors, const Ball& error) const;
@@ -51,6 +50,7 @@ class GainClaims {
   [[nodiscard]] Claim required_claim(const Tree& claim) const;
   [[nodiscard]] Claim guarantee(const Tree& claim) const;
   [[nodiscard]] Claim limits(const Tree& claim) const;
+  [[nodiscard]] Claim reach(const Tree& claim) const;
   [[nodiscard]] Claim slew_limit(const Tree& claim) const;
   [[nodiscard]] Claim steady_state(const Tree& claim) const;
   [[nodiscard]] Claim stability(const Tree& claim) const;

@@ -11,6 +11,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/markdown_model_gains.hpp"
 #include "certificates/model/markdown_model_lock.hpp"
+#include "certificates/model/markdown_model_phases.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/recursion_text.hpp"
@@ -212,6 +213,7 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
            recursion_section(model) + gains_coverage_section(tables);
   }
   return design_section(certificate, tables, model) + model_lock_section(certificate) +
+         (model_sets(certificate).phases ? model_phases_section(certificate) : std::string()) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
          recursion_section(model) + coverage_section(tables, model_sets(certificate).bounds_covariance);
 }

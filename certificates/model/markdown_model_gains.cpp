@@ -49,28 +49,6 @@ std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions
          markdown::table({"Cause", "Frequency error", "Share"}, rows) + "\n";
 }
 
-std::string limits_table(const ModelSets& sets, const FrequencyUnits& units) {
-  std::vector<std::vector<std::string>> rows;
-  const auto add = [&](const std::string& what, const std::string& limit, const ProvedSet& set) {
-    rows.push_back({what, limit, units.at_most(set.frequency_error)});
-  };
-  if (sets.noise && sets.noise->is_proved() && sets.noise->tubes.noise > 0.0) {
-    add("noise, at a constant frequency",
-        to_decimal(sets.noise->tubes.noise, 4, Direction::down) + " signal units", *sets.noise);
-  }
-  if (sets.slew && sets.slew->is_proved() && sets.slew->tubes.slew > 0.0) {
-    add("slew, without noise", units.slew(sets.slew->tubes.slew), *sets.slew);
-  }
-  if (sets.starts.reach > 0.0) {
-    add("frequency error at the start, without noise", units.at_least(sets.starts.reach), sets.starts);
-  }
-  return rows.empty()
-             ? ""
-             : "The most of each that is proved to be tolerated alone:\n\n" +
-                   markdown::table({"Disturbance", "At most", "Frequency error for ever, at most"}, rows) +
-                   "\n";
-}
-
 std::string steady_state_table(const model::GainProof& proof, const Model& model) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < proof.steady.size(); ++i) {
@@ -199,6 +177,29 @@ std::string attack_text(const ModelSets& sets, const Model& model, const ModelAs
 
 }  // namespace
 
+std::string gain_limits_table(const ProvedSet* noise, const ProvedSet* slew, const ProvedSet& starts,
+                              const FrequencyUnits& units) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& what, const std::string& limit, const ProvedSet& set) {
+    rows.push_back({what, limit, units.at_most(set.frequency_error)});
+  };
+  if (noise != nullptr && noise->is_proved() && noise->tubes.noise > 0.0) {
+    add("noise, at a constant frequency",
+        to_decimal(noise->tubes.noise, 4, Direction::down) + " signal units", *noise);
+  }
+  if (slew != nullptr && slew->is_proved() && slew->tubes.slew > 0.0) {
+    add("slew, without noise", units.slew(slew->tubes.slew), *slew);
+  }
+  if (starts.reach > 0.0) {
+    add("frequency error at the start, without noise", units.at_least(starts.reach), starts);
+  }
+  return rows.empty()
+             ? ""
+             : "The most of each that is proved to be tolerated alone:\n\n" +
+                   markdown::table({"Disturbance", "At most", "Frequency error for ever, at most"}, rows) +
+                   "\n";
+}
+
 std::string model_gains_section(const Certificate& certificate, const Model& model,
                                 const MarkdownOptions& options) {
   const ModelAssumptions& assume = model_tables(certificate.design).assume;
@@ -226,7 +227,8 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
         "For the assumed noise and slew no bound was proved: the errors may leave the range in which the "
         "loop's functions are nearly linear.\n\n";
   }
-  text += limits_table(sets, units);
+  text += gain_limits_table(sets.noise ? &*sets.noise : nullptr, sets.slew ? &*sets.slew : nullptr,
+                            sets.starts, units);
   if (proof.gains) {
     text += linear_table(proof, assume, units) + model_picture(options, "response.svg");
   }
@@ -242,8 +244,7 @@ std::string gains_coverage_section(const ModelTables& tables) {
       "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
       "not say, such as resets, lock detectors and limits that act.\n"
       "- The amplitude {}, and the signal has no other components. What else is in the samples must fit into "
-      "the "
-      "noise.\n"
+      "the noise.\n"
       "- *The steady state of the certificate* is the table above: the state in which the loop stays without "
       "noise, up to rounding and to what turns with the signal. *A certified invariant set* is the set of "
       "all states that the loop can reach "

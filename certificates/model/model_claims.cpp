@@ -45,16 +45,16 @@ class ModelClaims {
       : certificate_(&certificate),
         tables_(&model_tables(certificate.design)),
         sets_(&model_sets(certificate)),
-        words_(words_for(std::nullopt)),
-        units_(tables_->assume.sample_rate),
-        deciding_(&sets_->deciding()) {}
+        deciding_(&sets_->best()),
+        words_(words_for(std::nullopt, *deciding_)),
+        units_(tables_->assume.sample_rate) {}
 
   void add_told() {
     if (is_gaussian()) {
       add_lock_claims(*certificate_);
     }
     if (const Scope scope = scope_of(*deciding_); scope.is_any && keeps_starts() && !is_gaussian()) {
-      const ModelWords words = words_for(scope.part);
+      const ModelWords words = words_for(scope.part, *deciding_);
       Claim claim = reported("model/guarantee", words.assumed_tone() + words.noise() +
                                                     words.start(sets_->assumed ? "assumed" : "starts"));
       const std::string bound = above(deciding_->frequency_error);
@@ -83,10 +83,11 @@ class ModelClaims {
     if (const auto limit = slew_limit_of(*sets_, tables_->assume)) {
       add_slew_limit(*limit);
     }
-    const ProvedSet& starts = sets_->starts;
+    const ProvedSet& starts = settled_set();
     if (const Scope scope = scope_of(starts); scope.is_any && knows_bias()) {
-      Claim claim = reported("model/steady-state", words_for(scope.part).constant_tone() +
-                                                       ", without noise, " + words_.started_in("starts"));
+      const ModelWords words = words_for(scope.part, starts);
+      Claim claim = reported("model/steady-state",
+                             words.constant_tone() + ", without noise, " + words.started_in("starts"));
       const std::string low = below(starts.bias.lower());
       const std::string high = above(starts.bias.upper());
       constexpr int kDigits = 6;  // so that a large one is as exact as it is known
@@ -153,7 +154,8 @@ class ModelClaims {
       decide_size(say, {covers_assumptions() ? set->reach : 0.0, set}, *number,
                   "The certified set reaches {} rad/sample", assumption_objection());
     }
-    const std::string settled = words_.constant_tone() + ", without noise, " + words_.started_in("starts");
+    const ModelWords words = words_for(std::nullopt, settled_set());
+    const std::string settled = words.constant_tone() + ", without noise, " + words.started_in("starts");
     if (const auto& number = require.bias_below) {
       Claim claim =
           required("model/bias", *number, "", "the mean frequency error is at most {}", frequency_words);
@@ -161,11 +163,11 @@ class ModelClaims {
           "{}, the mean over the phase of the frequency error in the long run is at most {} in "
           "absolute value.",
           settled, frequency_words(*number));
-      const Interval& bias = sets_->starts.bias;
+      const Interval& bias = settled_set().bias;
       const double largest = std::max(bias.upper(), -bias.lower());
       const bool is_met = knows_bias() && rigor::certainly_less_equal(Interval(largest), number->value);
       decide(claim, has_bias(), largest, *number, "The proved bound of the mean is {} rad/sample",
-             objection_of(sets_->starts, is_met), true);
+             objection_of(settled_set(), is_met), true);
     }
     if (const auto& number = require.ripple_below) {
       Claim claim =
@@ -174,17 +176,17 @@ class ModelClaims {
           fmt::format("{}, the frequency error in the long run varies by at most {} over the phase.", settled,
                       frequency_words(*number));
       const bool is_met =
-          knows_bias() && rigor::certainly_less_equal(Interval(sets_->starts.ripple), number->value);
-      decide(claim, has_bias(), sets_->starts.ripple, *number, "It varies by at most {} rad/sample",
-             objection_of(sets_->starts, is_met), true);
+          knows_bias() && rigor::certainly_less_equal(Interval(settled_set().ripple), number->value);
+      decide(claim, has_bias(), settled_set().ripple, *number, "It varies by at most {} rad/sample",
+             objection_of(settled_set(), is_met), true);
     }
     conclude_requirements(*certificate_);
   }
 
  private:
   /// For a part of the band.
-  [[nodiscard]] ModelWords words_for(std::optional<BandPart> part) const {
-    return ModelWords(*tables_, std::move(part), sets_->starts_in());
+  [[nodiscard]] ModelWords words_for(std::optional<BandPart> part, const ProvedSet& set) const {
+    return ModelWords(*tables_, std::move(part), sets_->starts_in(set));
   }
   static Claim reported(const char* id, const std::string& hypotheses) {
     Claim claim;
@@ -196,7 +198,7 @@ class ModelClaims {
   }
   /// " (by the set "assumed" of the certificate)", for a set that was made for something else.
   [[nodiscard]] std::string by_set(const ProvedSet& set, const char* usual) const {
-    return sets_->gains || set.tubes.name == usual
+    return sets_->gains || set.is_by_gains || set.tubes.name == usual
                ? std::string()
                : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
   }
@@ -227,7 +229,7 @@ class ModelClaims {
   }
   /// The grid is evidence: where the checker begins.
   void add_capture(const ModelCapture& capture, const std::optional<BandPart>& part) {
-    const ModelWords words = words_for(part);
+    const ModelWords words = words_for(part, *deciding_);
     const std::string samples = fmt::format("{}", capture.samples);
     Claim claim = reported("model/capture", words.constant_tone() + words.noise() + words.started_exactly());
     claim.values = {{"samples", samples}};
@@ -250,12 +252,18 @@ class ModelClaims {
     add(claim);
   }
   void add_limits(const ModelLimits& limits) {
-    Claim claim = reported("model/limits", words_for(limits.part).constant_tone());
+    Claim claim = reported("model/limits", words_for(limits.part, *limits.noise.set).constant_tone());
     const std::string noise = below(limits.noise.size);
     claim.values = {{"noise", noise}, {"frequency_error", above(limits.noise.set->frequency_error)}};
     claim.statement +=
         fmt::format(", the tracker tolerates noise up to {}{}: a certified invariant set exists{}", noise,
                     by_set(*limits.noise.set, "noise"), in_lock(*limits.noise.set));
+    if (limits.reach.set != nullptr && limits.reach.set->is_by_gains != limits.noise.set->is_by_gains) {
+      add_part(claim, limits.part);
+      add(claim);
+      add_reach(limits);
+      return;
+    }
     if (limits.reach.set != nullptr) {
       const std::string reach = below(limits.reach.size);
       const std::string within = above(limits.reach.set->frequency_error);
@@ -269,9 +277,23 @@ class ModelClaims {
     add_part(claim, limits.part);
     add(claim);
   }
+  /// The reach alone, where it is proved in another way than the noise.
+  void add_reach(const ModelLimits& limits) {
+    const ProvedSet& set = *limits.reach.set;
+    const std::string reach = below(limits.reach.size);
+    const std::string within = above(set.frequency_error);
+    Claim claim = reported("model/reach", words_for(limits.part, set).constant_tone() + ", without noise");
+    claim.values = {{"reach", reach}, {"frequency_error", within}};
+    claim.statement += fmt::format(
+        ", a certified invariant set in which the frequency error stays at or below {} contains frequency "
+        "errors up to {} at every phase",
+        units_.at_most(within), units_.at_least(reach));
+    add_part(claim, limits.part);
+    add(claim);
+  }
   /// The noise of the set that tolerates this slew is tolerated together with it.
   void add_slew_limit(const SlewLimit& limit) {
-    const ModelWords words = words_for(limit.part);
+    const ModelWords words = words_for(limit.part, *limit.slew.set);
     Claim claim = reported("model/slew-limit", words.tone_with("a frequency that stays in " + words.band()));
     const ProvedSet& set = *limit.slew.set;
     const std::string slew = below(limit.slew.size);
@@ -430,6 +452,9 @@ class ModelClaims {
     if (sets_->gains) {
       return model::samples_below(*sets_->gains, target.value);
     }
+    if (deciding_->is_by_gains) {
+      return model::samples_below(*sets_->phases, target.value);
+    }
     const Model model = make_model(tables_->model, tables_->assume.signal);
     const model::TrackerModel tracker = proved_model(model, tables_->assume);
     // The first level below it.
@@ -476,24 +501,32 @@ class ModelClaims {
   }
   [[nodiscard]] bool guaranteed() const { return covers_assumptions() && keeps_starts(); }
   [[nodiscard]] bool settles() const {
-    return sets_->long_run ||
+    return deciding_->is_by_gains || sets_->long_run ||
            std::all_of(deciding_->tubes.tubes.begin(), deciding_->tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
   [[nodiscard]] double settled_error() const {
-    return sets_->long_run ? sets_->long_run->settled_error : deciding_->settled_error;
+    return sets_->long_run && !deciding_->is_by_gains ? sets_->long_run->settled_error
+                                                      : deciding_->settled_error;
   }
-  [[nodiscard]] bool has_bias() const { return sets_->starts.is_proved() && knows_bias(); }
+  [[nodiscard]] bool has_bias() const { return settled_set().is_proved() && knows_bias(); }
+  /// By which the error without noise is known.
+  [[nodiscard]] const ProvedSet& settled_set() const {
+    const bool is_by_phases =
+        sets_->phases && !sets_->starts.is_proved() && sets_->phases->starts.is_proved();
+    return is_by_phases ? sets_->phases->starts : sets_->starts;
+  }
   /// For the frequencies that the set without noise covers.
   [[nodiscard]] bool knows_bias() const {
-    const ProvedSet& starts = sets_->starts;
+    const ProvedSet& starts = settled_set();
     return rigor::is_finite(starts.bias) && std::isfinite(starts.ripple) &&
            std::all_of(starts.tubes.tubes.begin(), starts.tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
   /// `is_met`: the requirement is proved for the frequencies that the set covers.
   [[nodiscard]] std::string objection_of(const ProvedSet& set, bool is_met = false) const {
-    std::string text = sets_->gains ? "Not proved" : "No set of tubes was proved for the whole band";
+    std::string text =
+        sets_->gains || set.is_by_gains ? "Not proved" : "No set of tubes was proved for the whole band";
     if (const Scope scope = scope_of(set); scope.part) {
       text = fmt::format("{} over {} to {} {} only", is_met ? "Proved" : "A set of tubes was proved",
                          scope.part->from, scope.part->to, words_.unit());
@@ -546,7 +579,7 @@ class ModelClaims {
                 : std::string());
   }
   [[nodiscard]] std::string guarantee_objection(bool is_met = false) const {
-    if (covers_assumptions() && sets_->gains) {
+    if (covers_assumptions() && (sets_->gains || deciding_->is_by_gains)) {
       return std::isfinite(deciding_->start_share)
                  ? fmt::format(
                        "Of the assumed starts, only deviations {} times as large are proved to settle.",
@@ -563,9 +596,9 @@ class ModelClaims {
   Certificate* certificate_;
   const ModelTables* tables_;
   const ModelSets* sets_;
+  const ProvedSet* deciding_;
   ModelWords words_;
   FrequencyUnits units_;
-  const ProvedSet* deciding_;
 };
 
 }  // namespace

@@ -193,6 +193,34 @@ Json gains_json(const model::GainProof& proof) {
   return json;
 }
 
+Json floquet_cell_json(const model::FloquetCell& cell, std::size_t parts) {
+  Json json{{"frequency", rigor::to_hexadecimal(cell.curve.frequency)},
+            {"half_width", rigor::to_hexadecimal(cell.curve.half_width)},
+            {"parts", parts},
+            {"turns", cell.curve.turns},
+            {"curve", Json::array()},
+            {"basis", Json::array()},
+            {"matrix", Json::array()}};
+  for (const model::PhaseSeries& series : cell.curve.curve) {
+    json["curve"].push_back(series_json(series));
+  }
+  for (const model::PhaseSeries& series : cell.basis) {
+    json["basis"].push_back(series_json(series));
+  }
+  for (const std::vector<double>& entry : cell.matrix) {
+    json["matrix"].push_back(hexadecimals(entry));
+  }
+  return json;
+}
+
+Json phase_gains_json(const model::PhaseProof& proof) {
+  Json json{{"phases", proof.gridding.phases}, {"horizon", proof.gridding.horizon}, {"cells", Json::array()}};
+  for (const model::FloquetCell& each : proof.cells) {
+    json["cells"].push_back(floquet_cell_json(each, proof.gridding.parts));
+  }
+  return json;
+}
+
 }  // namespace
 
 Json model_evidence_json(const Certificate& certificate) {
@@ -223,7 +251,11 @@ Json model_evidence_json(const Certificate& certificate) {
       list.push_back(set_json((*lock)->tubes));
     }
   }
-  return {{"tubes", list}};
+  Json evidence{{"tubes", list}};
+  if (sets.phases) {
+    evidence["gains"] = phase_gains_json(*sets.phases);
+  }
+  return evidence;
 }
 
 Json model_report_json(const Certificate& certificate) {

@@ -36,10 +36,21 @@ Sets in_order(std::initializer_list<const std::optional<ProvedSet>*> sets,
   return found;
 }
 Sets for_noise(const ModelSets& sets) {
-  return in_order({&sets.noise, &sets.assumed, &sets.slew});
+  Sets found = in_order({&sets.noise, &sets.assumed, &sets.slew});
+  if (sets.phases) {
+    found.push_back(&sets.phases->assumed);
+    if (sets.phases->noise) {
+      found.push_back(&*sets.phases->noise);
+    }
+  }
+  return found;
 }
 Sets for_slew(const ModelSets& sets) {
-  return in_order({&sets.slew, &sets.assumed});
+  Sets found = in_order({&sets.slew, &sets.assumed});
+  if (sets.phases) {
+    found.push_back(&sets.phases->assumed);
+  }
+  return found;
 }
 
 bool has_part(const ProvedSet& set) {
@@ -94,7 +105,10 @@ std::optional<ModelLimits> limits_of(const ModelSets& sets, const ModelAssumptio
   if (!place) {
     return std::nullopt;
   }
-  const Sets all = in_order({&sets.assumed, &sets.noise, &sets.slew}, &sets.starts);
+  Sets all = in_order({&sets.assumed, &sets.noise, &sets.slew}, &sets.starts);
+  if (sets.phases) {
+    all.push_back(&sets.phases->starts);
+  }
   return ModelLimits{largest(for_noise(sets), place->range, noise_of), largest(all, place->range, reach_of),
                      place->part};
 }

@@ -134,7 +134,7 @@ void add_lock_claims(Certificate& certificate) {
   const ModelTables& tables = model_tables(certificate.design);
   const ModelAssumptions& assume = tables.assume;
   const ModelSets& sets = model_sets(certificate);
-  const ModelWords words(tables, std::nullopt, sets.starts_in());
+  const ModelWords words(tables, std::nullopt, sets.starts_in(sets.deciding()));
   const auto is_told = [](const ModelLock& lock) {
     return lock.is_proved() && lock.probability < 1.0 && names_lock(lock.frequency_error, lock.half_distance);
   };
@@ -164,7 +164,7 @@ Claim required_lock_claim(const Certificate& certificate) {
   const ModelAssumptions& assume = tables.assume;
   const Number& required = *tables.require.sets.probability_of_losing_lock_below;
   const ModelSets& sets = model_sets(certificate);
-  const ModelWords words(tables, std::nullopt, sets.starts_in());
+  const ModelWords words(tables, std::nullopt, sets.starts_in(sets.deciding()));
   Claim claim;
   claim.id = "model/probability-of-losing-lock";
   claim.required = true;

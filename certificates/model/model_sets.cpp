@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analysis/model/question/gain_sets.hpp"
+#include "analysis/model/question/phase_sets.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/operation_words.hpp"
@@ -159,6 +160,8 @@ model::SetQuestion question_of(const Model& model, const ModelTables& tables, bo
   question.whole_band = band_of(assume);
   question.band = model::searched_band(question.whole_band, model.samples.size());
   question.allows_gains = is_pure_tone(tables) && assume.start_exactly.empty() && !assume.gaussian;
+  question.allows_phase_gains = assume.start_exactly.empty() && !assume.gaussian && assume.one_amplitude &&
+                                question.tracker.filter == nullptr;
   question.noise = assume.gaussian ? 0.0 : assume.noise.value.upper();
   question.slew = slew_of(assume).upper();
   question.deviations = start_deviations(model, tables.model, assume.start_within);
@@ -190,6 +193,18 @@ class SharedProgress {
   double searches_;
   double done_ = 0.0;
 };
+
+/// Adds the proof by gains that depend on the phase, if something is better with it.
+void add_phases(const model::SetQuestion& question, ModelSets& sets) {
+  sets.phases = model::prove_by_phase_gains(question);
+  const bool is_any =
+      sets.phases && (sets.best().is_by_gains ||
+                      (sets.phases->noise && (!sets.noise || !sets.noise->is_proved() ||
+                                              sets.phases->noise->tubes.noise > sets.noise->tubes.noise)));
+  if (!is_any) {
+    sets.phases.reset();
+  }
+}
 
 }  // namespace
 
@@ -241,6 +256,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     sets.bounds_covariance = false;
     return sets;
   }
+  add_phases(question, sets);
   if (follows_start) {
     const model::ProvedSet& deciding = sets.deciding();
     sets.capture =

@@ -21,8 +21,11 @@ struct ModelSets : model::ProvedSets {
   bool bounds_covariance = false;       ///< the tubes bound a filter's covariance
   std::string objection;                ///< why nothing is certified for the assumptions; or empty
 
-  [[nodiscard]] StartsIn starts_in() const {
-    return gains ? StartsIn::steady_state : bounds_covariance ? StartsIn::set_with_covariance : StartsIn::set;
+  /// Of a statement by this set.
+  [[nodiscard]] StartsIn starts_in(const model::ProvedSet& set) const {
+    return gains || set.is_by_gains ? StartsIn::steady_state
+           : bounds_covariance      ? StartsIn::set_with_covariance
+                                    : StartsIn::set;
   }
 };
 

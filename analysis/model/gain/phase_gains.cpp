@@ -195,10 +195,12 @@ PhaseGains::Bounds PhaseGains::plus(const Bounds& bounds, const std::vector<doub
 
 std::optional<PhaseGains::Bounds> PhaseGains::closed(const LoopDisturbance& disturbance,
                                                      const std::vector<double>& from_start) const {
-  constexpr int kMostSteps = 400;
+  constexpr int kMostSteps = 200;
+  constexpr double kTooFar = 5.0;  // times the linear bounds: they do not close where they have grown so
   constexpr double kRoom = 1.0005;
   constexpr double kTooLarge = 1e6;
   Bounds bounds(phases_, std::vector<double>(kernels_.front().forms(), 0.0));
+  double linear = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
     Bounds next = plus(after(disturbance, bounds), from_start);
     double growth = 0.0;
@@ -212,6 +214,11 @@ std::optional<PhaseGains::Bounds> PhaseGains::closed(const LoopDisturbance& dist
       }
     }
     bounds = std::move(next);
+    const double error = error_of(bounds);
+    linear = step == 0 ? error : linear;
+    if (!(error <= kTooFar * linear)) {
+      return std::nullopt;
+    }
     if (growth <= 0.0) {
       break;
     }
@@ -237,6 +244,19 @@ double PhaseGains::error_of(const Bounds& bounds) const {
   return error;
 }
 
+double PhaseGains::missed_share() const {
+  double share = 0.0;
+  for (const PhaseKernels& each : kernels_) {
+    const std::size_t error = each.forms() - 1;
+    double gain = 0.0;
+    for (std::size_t g = 0; g < phases_; ++g) {
+      gain = std::max(gain, each.gain(error, PhaseKernels::kNoise, g));
+    }
+    share = larger_or_nan(share, each.missed(error, PhaseKernels::kNoise) / gain);
+  }
+  return share;
+}
+
 double PhaseGains::largest_bias() const {
   return error_of(Bounds(phases_, std::vector<double>(1, 0.0)));
 }
@@ -259,7 +279,7 @@ void PhaseGains::add_mean_and_ripple(const Bounds& bounds, PhaseErrors& errors) 
     Interval around(0.0);
     double most = 0.0;
     for (std::size_t g = 0; g < phases_; ++g) {
-      const PhaseCell& cell = part.cells[g];
+      const PhaseNetwork& cell = part.cells[g];
       const double error = bounds[g].back();
       sum += cell.mean_bias;
       most = larger_or_nan(most, error);

@@ -38,6 +38,9 @@ class PhaseGains {
 
   /// Empty where no bound closes, and for a slew beyond that with which this was made.
   [[nodiscard]] std::optional<PhaseErrors> errors(const LoopDisturbance& disturbance) const;
+  [[nodiscard]] std::size_t states() const { return parts_.front().states; }
+  /// What the sums on the grid miss of the gain from noise to the frequency error, relative to it.
+  [[nodiscard]] double missed_share() const;
   /// The largest frequency error on the curve, rad/sample.
   [[nodiscard]] double largest_bias() const;
   [[nodiscard]] std::optional<std::pair<std::size_t, rigor::Interval>> frequency_state() const;

@@ -60,7 +60,7 @@ bool add_step(const PhaseStep& step, bool is_first, PhasePart& part) {
     }
     part.residual[i] = larger_or_nan(part.residual[i], size_of(step.residual[i]));
   }
-  PhaseCell cell;
+  PhaseNetwork cell;
   cell.inputs = step.inputs;
   for (const PhaseForm& form : step.forms) {
     cell.direct.push_back(form.direct);

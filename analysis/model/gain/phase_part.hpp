@@ -21,7 +21,7 @@ struct PhaseGridding {
 };
 
 /// The part of a step over a cell of phases that bounds need.
-struct PhaseCell {
+struct PhaseNetwork {
   std::vector<PhaseInput> inputs;
   std::vector<std::vector<DirectWeight>> direct;  ///< by form
   rigor::Interval bias;                           ///< rad/sample
@@ -33,7 +33,7 @@ struct PhasePart {
   std::size_t states = 0;
   double frequency = 0.0;   ///< in the middle, rad/sample
   double half_width = 0.0;  ///< rad/sample, at least
-  std::vector<PhaseCell> cells;
+  std::vector<PhaseNetwork> cells;
   std::vector<GridFunction> forms;      ///< the last one is the frequency error
   std::vector<GridFunction> noise;      ///< columns of the components
   std::map<int, GridFunction> columns;  ///< of gates, by the numbers of their inputs

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analysis/model/gain/frame_value.hpp"
+#include "analysis/model/question/largest_value.hpp"
 #include "analysis/model/tube/false_lock.hpp"
 #include "analysis/rigor/elementary.hpp"
 
@@ -23,27 +24,6 @@ namespace {
 /// For a checker whose bounds are cruder, above all of what turns with the signal.
 double widened(const GainBounds& gains, double bound) {
   return rigor::mul_up(bound, gains.network().has_ripples ? 1.01 : 1.001);
-}
-
-/// Nearly the largest number up to `most` with this property, which smaller ones have; 0 where none was
-/// found.
-double largest_with(double most, const std::function<bool(double)>& holds) {
-  constexpr int kHalvings = 60;
-  constexpr int kSteps = 11;
-  constexpr double kRoom = 0.998;  // for a program whose bounds are cruder
-  double low = most;
-  for (int i = 0; i < kHalvings && !holds(low); ++i) {
-    low *= 0.5;
-  }
-  if (!holds(low)) {
-    return 0.0;
-  }
-  double high = std::min(most, 2.0 * low);
-  for (int i = 0; i < kSteps; ++i) {
-    const double middle = 0.5 * (low + high);
-    (holds(middle) ? low : high) = middle;
-  }
-  return kRoom * low;
 }
 
 class GainSets {

@@ -117,6 +117,16 @@ ProvedSets prove_sets(const SetQuestion& question, const SetProgress& progress) 
   return SetsProof(question, progress).all();
 }
 
+const ProvedSet& ProvedSets::best() const {
+  if (!phases || !phases->assumed.is_proved() || phases->assumed.start_share > 1.0) {
+    return deciding();
+  }
+  const bool is_better = !deciding().is_proved() || deciding().start_share > 1.0 ||
+                         (phases->assumed.settled_error < settled_error_of(*this) &&
+                          phases->assumed.frequency_error <= deciding().frequency_error);
+  return is_better ? phases->assumed : deciding();
+}
+
 double settled_error_of(const ProvedSets& sets) {
   return sets.long_run ? sets.long_run->settled_error : sets.assumed ? sets.assumed->settled_error : INFINITY;
 }

@@ -6,6 +6,7 @@
 
 #include "analysis/linear/stability.hpp"
 #include "analysis/model/gain/gain_bounds.hpp"
+#include "analysis/model/gain/phase_gains.hpp"
 #include "analysis/model/question/set_question.hpp"
 #include "analysis/model/set/proved_set.hpp"
 #include "analysis/model/steady_state/linear_worst_case.hpp"
@@ -22,9 +23,19 @@ struct GainProof {
   std::optional<LoopBounds> assumed = {};      ///< for it
 };
 
+/// The same for a loop whose errors depend on the phase, beside tubes or without them.
+struct PhaseProof {
+  std::vector<FloquetCell> cells;  ///< from the lowest frequencies on
+  PhaseGridding gridding;          ///< of each cell
+  PhaseErrors errors;              ///< for what is assumed
+  ProvedSet starts, assumed;       ///< as those of ProvedSets
+  std::optional<ProvedSet> noise;
+};
+
 /// The first sample from which on the error is certainly below `target`, rad/sample, for what is assumed;
 /// infinity where that is not known. Holds upward rounding.
 [[nodiscard]] double samples_below(const GainProof& proof, const rigor::Interval& target);
+[[nodiscard]] double samples_below(const PhaseProof& proof, const rigor::Interval& target);
 
 /// The requested sets, and the reasons for those that were not proved.
 struct ProvedSets {
@@ -39,10 +50,12 @@ struct ProvedSets {
 
   /// By gains: for the assumed noise and slew, and starts of which the frequency is off as far as possible.
   std::optional<ProvedSet> reach = {};
-  std::optional<GainProof> gains = {};  ///< the proof, where it is by gains
-
+  std::optional<GainProof> gains = {};    ///< the proof, where it is by gains
+  std::optional<PhaseProof> phases = {};  ///< by gains that depend on the phase; beside the other sets
   /// The set for what is assumed.
   [[nodiscard]] const ProvedSet& deciding() const { return assumed ? *assumed : starts; }
+  /// The one with the better bounds for what is assumed, by whatever proof.
+  [[nodiscard]] const ProvedSet& best() const;
 };
 
 /// Searches and verifies. The search stops at the deadline; results proved by then are kept. `progress`

@@ -23,6 +23,8 @@ struct SetQuestion {
   rigor::Interval whole_band = {};  ///< as it is assumed, rad/sample
   /// The signal is the tone alone, and nothing is asked that only tubes answer (a start that is captured).
   bool allows_gains = false;
+  /// Nothing is asked that only tubes answer, the amplitude is one number, and there is no filter.
+  bool allows_phase_gains = false;
   double noise = 0.0;                            ///< at most, signal units
   double slew = 0.0;                             ///< at most, rad/sample per sample
   std::vector<rigor::Interval> deviations = {};  ///< of the assumed starts from the curve, one for each state

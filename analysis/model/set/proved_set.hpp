@@ -15,6 +15,7 @@ namespace veritrack::model {
 /// for a checker whose bounds are cruder. Infinite, or empty, where nothing is known.
 struct ProvedSet {
   TubeSet tubes;
+  bool is_by_gains = false;           ///< then there are no tubes, only their name and the disturbances
   double frequency_error = INFINITY;  ///< of level R_0, at most, rad/sample
   double half_distance = 0.0;         ///< to the next false lock (false_lock.hpp), rad/sample
   double settled_error = INFINITY;    ///< of level R_m, at most, rad/sample

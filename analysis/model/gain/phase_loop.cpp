@@ -1,0 +1,223 @@
+#include "analysis/model/gain/phase_loop.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "analysis/model/gain/factor_order.hpp"
+#include "analysis/model/gain/floquet_proposal.hpp"
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model {
+
+using rigor::Interval;
+
+namespace {
+
+/// The states of the curve in the middle of the cell, at a phase.
+std::vector<double> curve_state(const FloquetCell& cell, double phase) {
+  std::vector<std::pair<double, double>> harmonics;
+  std::size_t powers = 1;
+  for (const PhaseSeries& series : cell.curve.curve) {
+    for (const auto& of_harmonic : series.coefficients) {
+      powers = std::max(powers, of_harmonic.size());
+    }
+    for (std::size_t h = harmonics.size(); h < series.coefficients.size(); ++h) {
+      const double angle = static_cast<double>(h) * phase;
+      harmonics.emplace_back(std::cos(angle), std::sin(angle));
+    }
+  }
+  std::vector<double> in_middle(powers, 0.0);
+  in_middle[0] = 1.0;
+  std::vector<double> state;
+  for (std::size_t i = 0; i < cell.states(); ++i) {
+    state.push_back(cell.curve.turns[i] * phase + cell.curve.curve[i].at<double>(harmonics, in_middle));
+  }
+  return state;
+}
+
+/// The registers of the step at some phases.
+std::vector<std::vector<double>> registers_on(const TrackerModel& tracker, const TrackedTone& tone,
+                                              const FloquetCell& cell) {
+  constexpr int kPhases = 32;
+  const rigor::NearestRounding nearest;
+  std::vector<std::vector<double>> all;
+  for (int p = 0; p < kPhases; ++p) {
+    const double phase = 2.0 * std::numbers::pi * p / kPhases;
+    std::vector<double> inputs;
+    for (const Interval& constant : tracker.constants) {
+      inputs.push_back(rigor::midpoint(constant));
+    }
+    const std::vector<double> state = curve_state(cell, phase);
+    inputs.insert(inputs.end(), state.begin(), state.end());
+    const auto samples = samples_of(tone.signal, tone.amplitude, phase + cell.curve.frequency);
+    inputs.insert(inputs.end(), samples.begin(), samples.end());
+    std::vector<double> registers;
+    std::vector<double> results(tracker.recursion->step.results().size());
+    tracker.recursion->step.run<double>(std::span<const double>(inputs), registers,
+                                        std::span<double>(results));
+    all.push_back(std::move(registers));
+  }
+  return all;
+}
+
+/// Cells of equal width.
+std::optional<std::vector<FloquetCell>> cells_of(const TrackedTone& tone, const Interval& band,
+                                                 std::size_t count) {
+  std::vector<FloquetCell> cells;
+  const double width = (band.upper() - band.lower()) / static_cast<double>(count);
+  // Cells overlap a little: their middles are rounded.
+  const double room = 1e-9 * width + 1e-12;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double low = band.lower() + static_cast<double>(i) * width;
+    auto cell = propose_floquet_cell(tone, low - room, low + width + room);
+    if (!cell) {
+      return std::nullopt;
+    }
+    cells.push_back(*std::move(cell));
+  }
+  return cells;
+}
+
+/// After how many samples the powers of the matrix are negligible; 0: after too many.
+std::size_t horizon_of(const FloquetCell& cell) {
+  constexpr std::size_t kMost = 1U << 14U;
+  constexpr double kNegligible = 1e-6;
+  const std::size_t n = cell.states();
+  std::vector<double> power(n * n, 0.0);
+  std::vector<double> largest(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    power[i * n + i] = 1.0;
+  }
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < kMost; ++k) {
+    std::vector<double> next(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const double size = std::fabs(power[i * n + j]);
+        largest[i * n + j] = std::max(largest[i * n + j], size);
+        last = size > kNegligible * largest[i * n + j] && size > 1e-12 ? k : last;
+        for (std::size_t m = 0; m < n; ++m) {
+          next[i * n + j] += power[i * n + m] * cell.matrix[m * n + j][0];
+        }
+      }
+    }
+    power = std::move(next);
+  }
+  const std::size_t blocks = last / PhaseKernels::kBlocks + 1;
+  return last + PhaseKernels::kBlocks < kMost ? blocks * PhaseKernels::kBlocks : 0;
+}
+
+}  // namespace
+
+std::optional<PhaseGains> PhaseLoop::gains_of(std::size_t part) const {
+  const std::size_t cell = part / gridding_.parts;
+  auto made = phase_part(tracker_, cells_[cell], gridding_, part % gridding_.parts);
+  if (!made) {
+    return std::nullopt;
+  }
+  std::vector<PhasePart> alone;
+  alone.push_back(*std::move(made));
+  return PhaseGains::make(std::move(alone), gridding_, 0.0);
+}
+
+bool PhaseLoop::find_gridding(bool with_slew) {
+  constexpr std::size_t kFewestParts = 8;
+  const std::size_t most_parts = with_slew ? 128 : 256;
+  constexpr double kFine = 0.1;  // of the gain is missed
+  constexpr double kBetter = 0.9;
+  gridding_.phases = with_slew ? 64 : 128;  // with a slew all parts are kept, and all look at each other
+  gridding_.horizon = 0;
+  for (const FloquetCell& each : cells_) {
+    const std::size_t horizon = horizon_of(each);
+    if (horizon == 0) {
+      return false;
+    }
+    gridding_.horizon = std::max(gridding_.horizon, horizon);
+  }
+  double best = INFINITY;
+  for (std::size_t parts = kFewestParts; parts <= most_parts; parts *= 2) {
+    PhaseGridding finer = gridding_;
+    finer.parts = parts;
+    std::swap(finer, gridding_);
+    auto gains = gains_of(0);
+    const double missed = gains ? gains->missed_share() : INFINITY;
+    if (!(missed < kBetter * best) && std::isfinite(best)) {
+      gridding_ = finer;
+      break;
+    }
+    if (gains) {
+      best = missed;
+      probe_ = std::make_shared<PhaseGains>(*std::move(gains));
+    }
+    if (best < kFine) {
+      break;
+    }
+  }
+  return probe_ != nullptr;
+}
+
+std::optional<PhaseLoop> PhaseLoop::make(const TrackerModel& tracker, const TrackedTone& tone,
+                                         const Interval& band, bool with_slew,
+                                         const search::Deadline& deadline) {
+  constexpr std::size_t kMostCells = 8;
+  for (std::size_t count = 1; count <= (with_slew ? 1 : kMostCells) && !deadline.is_over(); count *= 2) {
+    auto cells = cells_of(tone, band, count);
+    if (!cells) {
+      continue;
+    }
+    PhaseLoop loop;
+    loop.cells_ = *std::move(cells);
+    loop.tracker_ = tracker;
+    loop.recursion_ = std::make_shared<trackers::Recursion>(*tracker.recursion);
+    loop.recursion_->step = with_vanishing_factors_last(tracker.recursion->step,
+                                                        registers_on(tracker, tone, loop.cells_.front()));
+    loop.tracker_.recursion = loop.recursion_.get();
+    if (loop.find_gridding(with_slew)) {
+      return loop;
+    }
+  }
+  return std::nullopt;
+}
+
+bool PhaseLoop::for_each_part(const PartTask& task) const {
+  std::atomic<bool> is_done{true};
+  tbb::parallel_for(std::size_t{0}, parts(), [&](std::size_t part) {
+    const rigor::UpwardRounding upward;
+    if (!is_done) {
+      return;
+    }
+    const auto gains = gains_of(part);
+    if (!gains || !task(part, *gains)) {
+      is_done = false;
+    }
+  });
+  return is_done;
+}
+
+std::optional<PhaseGains> PhaseLoop::with_slew(double slew) const {
+  if (cells_.size() != 1) {
+    return std::nullopt;
+  }
+  std::vector<std::optional<PhasePart>> made(parts());
+  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t part) {
+    const rigor::UpwardRounding upward;
+    made[part] = phase_part(tracker_, cells_.front(), gridding_, part);
+  });
+  std::vector<PhasePart> all;
+  for (std::optional<PhasePart>& each : made) {
+    if (!each) {
+      return std::nullopt;
+    }
+    all.push_back(*std::move(each));
+  }
+  return PhaseGains::make(std::move(all), gridding_, slew);
+}
+
+}  // namespace veritrack::model

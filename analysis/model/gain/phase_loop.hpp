@@ -1,0 +1,49 @@
+// A loop over its whole band, for bounds that are resolved over the phases: cells of frequencies with their
+// bases, and how finely they are cut.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "analysis/model/gain/phase_gains.hpp"
+#include "analysis/search/deadline.hpp"
+
+namespace veritrack::model {
+
+class PhaseLoop {
+ public:
+  /// Empty where there is no steady state or no basis, where errors do not decay, or where the deadline is
+  /// over. `with_slew`: for bounds with a slew, too, which needs one cell. Throws NoFrame where the rules do
+  /// not cover the loop. Needs the upward rounding mode.
+  [[nodiscard]] static std::optional<PhaseLoop> make(const TrackerModel& tracker, const TrackedTone& tone,
+                                                     const rigor::Interval& band, bool with_slew,
+                                                     const search::Deadline& deadline);
+
+  [[nodiscard]] const std::vector<FloquetCell>& cells() const { return cells_; }
+  [[nodiscard]] const PhaseGridding& gridding() const { return gridding_; }
+
+  /// At a constant frequency: the bounds of some part of the frequencies, for a search.
+  [[nodiscard]] const PhaseGains& probe() const { return *probe_; }
+  /// Works on the bounds of every part by itself, at a constant frequency, in parallel; with the part's
+  /// number. False where some part has none, or the task says so.
+  using PartTask = std::function<bool(std::size_t part, const PhaseGains& gains)>;
+  [[nodiscard]] bool for_each_part(const PartTask& task) const;
+  [[nodiscard]] std::size_t parts() const { return cells_.size() * gridding_.parts; }
+  /// For slews up to this one; empty where errors may not decay.
+  [[nodiscard]] std::optional<PhaseGains> with_slew(double slew) const;
+
+ private:
+  PhaseLoop() = default;
+  [[nodiscard]] std::optional<PhaseGains> gains_of(std::size_t part) const;
+  bool find_gridding(bool with_slew);
+
+  TrackerModel tracker_;
+  std::shared_ptr<trackers::Recursion> recursion_;  ///< with factors in a better order
+  std::vector<FloquetCell> cells_;
+  PhaseGridding gridding_;
+  std::shared_ptr<PhaseGains> probe_;
+};
+
+}  // namespace veritrack::model

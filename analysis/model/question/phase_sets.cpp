@@ -1,0 +1,275 @@
+#include "analysis/model/question/phase_sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/model/gain/frame_value.hpp"
+#include "analysis/model/gain/phase_loop.hpp"
+#include "analysis/model/question/largest_value.hpp"
+#include "analysis/model/tube/false_lock.hpp"
+#include "analysis/rigor/elementary.hpp"
+
+namespace veritrack::model {
+
+using rigor::Interval;
+
+namespace {
+
+/// Near the linear recursion: then tubes are hardly better.
+constexpr double kNear = 1.6;
+
+/// For a checker whose bounds are cruder.
+double with_room(double bound) {
+  return rigor::mul_up(bound, 1.01);
+}
+
+class PhaseSets {
+ public:
+  PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance)
+      : question_(&question), loop_(&loop), half_distance_(half_distance) {}
+
+  /// Empty where the bounds are far from those of the linear recursion.
+  [[nodiscard]] std::optional<PhaseProof> all() {
+    const LoopDisturbance assumed{question_->noise, 0.0, {}};
+    const auto probed = loop_->probe().errors(assumed);
+    if (!probed || !(probed->long_run <= kNear * (probed->linear + loop_->probe().largest_bias()))) {
+      return std::nullopt;
+    }
+    find_joint();
+    if (!find_sizes() || (question_->slew > 0.0 && !assumed_)) {
+      return std::nullopt;
+    }
+    if (!(assumed_->long_run <= kNear * (assumed_->linear + loop_->probe().largest_bias()))) {
+      return std::nullopt;
+    }
+    return proof();
+  }
+
+ private:
+  /// What is asked of each part at a constant frequency.
+  struct OfPart {
+    std::optional<PhaseErrors> still, assumed, from_starts, at_noise, at_reach;
+    double noise = 0.0, reach = 0.0, share = 0.0;
+  };
+
+  [[nodiscard]] bool is_lock(const std::optional<PhaseErrors>& errors) const {
+    return errors && with_room(with_room(errors->for_ever)) < half_distance_;
+  }
+  [[nodiscard]] std::vector<double> start_of(double share) const {
+    std::vector<double> start;
+    for (const Interval& each : question_->deviations) {
+      start.push_back(rigor::mul_up(share, each.upper()));
+    }
+    return start;
+  }
+  /// The start in which the frequency is off by this; empty where the frequency is no multiple of one state.
+  [[nodiscard]] static std::vector<double> start_with(const PhaseGains& gains, double error) {
+    const auto state = gains.frequency_state();
+    const double factor = state ? rigor::mignitude(state->second) : 0.0;
+    if (!(factor > 0.0)) {
+      return {};
+    }
+    std::vector<double> start(gains.states(), 0.0);
+    start[state->first] = rigor::div_up(rigor::add_up(error, gains.largest_bias()), factor);
+    return start;
+  }
+  [[nodiscard]] std::optional<PhaseErrors> from_error(const PhaseGains& gains, double error) const {
+    const std::vector<double> start = start_with(gains, error);
+    return start.empty() ? std::nullopt : gains.errors({0.0, 0.0, start});
+  }
+
+  /// With the assumed slew.
+  void find_joint() {
+    if (question_->slew > 0.0) {
+      if (const auto joint = loop_->with_slew(question_->slew)) {
+        assumed_ = joint->errors({question_->noise, question_->slew, {}});
+        if (question_->assumes_start) {
+          from_starts_ = joint->errors({question_->noise, question_->slew, start_of(1.0)});
+        }
+      }
+    }
+  }
+
+  /// From this value down to one with this property: steps are small.
+  static double down_to(double value, const std::function<bool(double)>& holds) {
+    constexpr double kStep = 0.97;
+    constexpr int kSteps = 100;
+    for (int i = 0; i < kSteps; ++i, value *= kStep) {
+      if (holds(value)) {
+        return value;
+      }
+    }
+    return 0.0;
+  }
+
+  bool find_part(const PhaseGains& gains, OfPart& part) const {
+    part.still = gains.errors({});
+    if (!part.still) {
+      return false;
+    }
+    const bool moves = question_->slew > 0.0;
+    if (!moves) {
+      part.assumed = question_->noise > 0.0 ? gains.errors({question_->noise, 0.0, {}}) : part.still;
+      if (!part.assumed) {
+        return false;
+      }
+      if (question_->assumes_start) {
+        part.from_starts = gains.errors({question_->noise, 0.0, start_of(1.0)});
+      }
+    }
+    if (question_->largest_noise) {
+      part.noise = down_to(probed_noise_, [&](double noise) {
+        part.at_noise = gains.errors({noise, 0.0, {}});
+        return is_lock(part.at_noise);
+      });
+    }
+    part.reach = down_to(probed_reach_, [&](double error) {
+      part.at_reach = from_error(gains, error);
+      return is_lock(part.at_reach);
+    });
+    return true;
+  }
+
+  static void join(std::optional<PhaseErrors>& all, const std::optional<PhaseErrors>& one, bool is_first) {
+    if (is_first || !one) {
+      all = one;
+    } else if (all) {
+      all->join(*one);
+    }
+  }
+
+  /// At a constant frequency. False where some part has no bounds.
+  bool find_sizes() {
+    const PhaseGains& probe = loop_->probe();
+    constexpr int kSteps = 7;
+    if (question_->largest_noise) {
+      const double most = question_->tracker.amplitude.lower();
+      probed_noise_ = largest_with(
+          most,
+          [&](double noise) {
+            return is_lock(probe.errors({noise, 0.0, {}}));
+          },
+          kSteps);
+    }
+    probed_reach_ = largest_with(
+        half_distance_, [&](double error) { return is_lock(from_error(probe, error)); }, kSteps);
+    std::vector<OfPart> parts(loop_->parts());
+    const bool is_done = loop_->for_each_part([&](std::size_t number, const PhaseGains& gains) {
+      return !question_->deadline.is_over() && find_part(gains, parts[number]);
+    });
+    if (!is_done) {
+      return false;
+    }
+    const bool moves = question_->slew > 0.0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const OfPart& part = parts[p];
+      join(still_, part.still, p == 0);
+      if (!moves) {
+        join(assumed_, part.assumed, p == 0);
+        join(from_starts_, part.from_starts, p == 0);
+      }
+      join(at_noise_, part.at_noise, p == 0);
+      join(at_reach_, part.at_reach, p == 0);
+      noise_ = p == 0 ? part.noise : std::min(noise_, part.noise);
+      reach_ = p == 0 ? part.reach : std::min(reach_, part.reach);
+    }
+    return true;
+  }
+
+  [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance,
+                                 const std::optional<PhaseErrors>& errors) const {
+    ProvedSet set;
+    set.is_by_gains = true;
+    set.tubes.name = name;
+    set.tubes.noise = disturbance.noise;
+    set.tubes.slew = disturbance.slew;
+    set.half_distance = half_distance_;
+    set.start_share = 0.5;
+    set.tubes.is_complete = errors.has_value();
+    if (errors) {
+      set.frequency_error = with_room(errors->for_ever);
+      set.settled_error = with_room(errors->long_run);
+    } else {
+      set.tubes.reasons.emplace_back("the bounds of the errors do not close: too much noise or slew");
+    }
+    return set;
+  }
+
+  [[nodiscard]] PhaseProof proof() const {
+    constexpr double kRoom = 0.998;
+    PhaseProof proof{loop_->cells(), loop_->gridding(), *assumed_, set_of(kStarts, {}, still_), {}, {}};
+    ProvedSet& starts = proof.starts;
+    const double width = with_room(still_->ripple);
+    starts.bias = still_->mean + Interval::from_bounds(-0.01 * width - 1e-13, 0.01 * width + 1e-13);
+    starts.ripple = rigor::add_up(width, 1e-13);
+    if (reach_ > 0.0 && at_reach_) {
+      starts.reach = kRoom * reach_;
+      starts.frequency_error = with_room(at_reach_->for_ever);
+    }
+    proof.assumed = set_of(kAssumed, {question_->noise, question_->slew, {}}, assumed_);
+    if (question_->assumes_start) {
+      proof.assumed.start_share = INFINITY;
+      if (from_starts_) {
+        proof.errors = *from_starts_;
+        proof.assumed.start_share = 1.0;
+        proof.assumed.frequency_error = with_room(from_starts_->for_ever);
+        proof.assumed.settled_error = with_room(from_starts_->long_run);
+      }
+    }
+    if (question_->largest_noise && noise_ > 0.0) {
+      proof.noise = set_of(kLargestNoise, {kRoom * noise_, 0.0, {}}, at_noise_);
+    }
+    return proof;
+  }
+
+  const SetQuestion* question_;
+  const PhaseLoop* loop_;
+  double half_distance_;
+  double probed_noise_ = 0.0, probed_reach_ = 0.0;
+  std::optional<PhaseErrors> still_, assumed_, from_starts_, at_noise_, at_reach_;
+  double noise_ = 0.0, reach_ = 0.0;
+};
+
+}  // namespace
+
+double samples_below(const PhaseProof& proof, const Interval& target) {
+  const std::vector<double>& errors = proof.errors.from_block;
+  for (std::size_t block = 0; block < errors.size(); ++block) {
+    if (rigor::certainly_less(Interval(with_room(errors[block])), target)) {
+      return static_cast<double>(block * (proof.gridding.horizon / PhaseKernels::kBlocks));
+    }
+  }
+  return INFINITY;
+}
+
+std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, std::string* reason) {
+  const Interval& band = question.whole_band;
+  const auto nothing = [&](const std::string& why) -> std::optional<PhaseProof> {
+    if (reason != nullptr) {
+      *reason = why;
+    }
+    return std::nullopt;
+  };
+  if (!question.allows_phase_gains) {
+    return nothing("it needs one amplitude, bounded noise, no start_exactly and no filter");
+  }
+  if (!(band.lower() > 0.0) || !(band.upper() < rigor::pi().lower())) {
+    return nothing("the band goes to 0 or to half the sample rate");
+  }
+  try {
+    const auto loop =
+        PhaseLoop::make(question.tracker, question.tone, band, question.slew > 0.0, question.deadline);
+    if (!loop) {
+      return nothing("no basis was found in which its errors have constant coefficients and decay");
+    }
+    const double half_distance = half_distance_to_false_lock(question.tracker, band);
+    auto proof = PhaseSets(question, *loop, half_distance).all();
+    return proof ? std::move(proof)
+                 : nothing("the bounds of its errors are far from those of the linear loop");
+  } catch (const NoFrame& objection) {
+    return nothing(objection.what());
+  }
+}
+
+}  // namespace veritrack::model

@@ -151,15 +151,20 @@ PolynomialMatrix product_of(const PolynomialMatrix& x, const PolynomialMatrix& y
   return result;
 }
 
-/// The row from `first` on whose entry in that column is certainly farthest from 0.
+/// The row from `first` on whose entry in that column is certainly farthest from 0, as a share of the row:
+/// states are of different sizes.
 std::size_t best_pivot(const PolynomialMatrix& matrix, std::size_t first) {
   std::size_t best = first;
   double farthest = 0.0;
   for (std::size_t row = first; row < matrix.size(); ++row) {
+    double size = 0.0;
+    for (std::size_t j = first; j < matrix.size(); ++j) {
+      size = std::max(size, supremum(matrix[row][j]));
+    }
     const Ball entry = abs(matrix[row][first].range());
     const double least = entry.finite() ? entry.lower_double() : 0.0;
-    if (least > farthest) {
-      farthest = least;
+    if (least > 0.0 && least / size > farthest) {
+      farthest = least / size;
       best = row;
     }
   }

@@ -1,8 +1,6 @@
 // Bounds that contain their own right side.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "checker/model/gain/phase_bounds.hpp"
@@ -121,7 +119,6 @@ std::optional<PhaseSolver::Sizes> PhaseSolver::sizes_at(const PhaseTable& bounds
         const PhaseCellValues& cell = group_->part(part).cells[g];
         const double size = remainder_size(node, cell.rules[r], rule.first ? bounds[*rule.first][g] : 0.0,
                                            rule.second ? bounds[*rule.second][g] : 0.0);
-        if (getenv("PCDBG") && !std::isfinite(size)) { fprintf(stderr,"rule %zu op %d g %zu Y %g %g low %g high %g olow %g ohigh %g val %g\n", r, int(node.operation), g, rule.first ? bounds[*rule.first][g] : 0.0, rule.second ? bounds[*rule.second][g] : 0.0, cell.rules[r].low, cell.rules[r].high, cell.rules[r].other_low, cell.rules[r].other_high, cell.rules[r].value);}
         if (!std::isfinite(size)) {
           return std::nullopt;
         }
@@ -211,11 +208,6 @@ std::optional<PhaseTable> PhaseSolver::for_ever(const PhaseTable* near) const {
     std::optional<PhaseTable> above = next(bounds, true);
     if (!above) {
       return std::nullopt;
-    }
-    if (getenv("PCDBG")) {
-      fprintf(stderr, "round %d:", round);
-      for (auto& r : *above) fprintf(stderr, " %.4g", *std::max_element(r.begin(), r.end()));
-      fprintf(stderr, "\n");
     }
     if (are_at_most(*above, bounds)) {
       for (int down = 0; down < kRoundsFromAbove && above && lower(bounds, *above); ++down) {

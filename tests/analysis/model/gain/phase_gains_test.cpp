@@ -1,6 +1,6 @@
 // Bounds that are resolved over the phases, attacked: the noise that pushes in the direction of the linear
 // response at every sample, and random noise, from the steady state.
-#include "analysis/model/gain/phase_bounds.hpp"
+#include "analysis/model/gain/phase_gains.hpp"
 
 #include <doctest/doctest.h>
 
@@ -80,9 +80,9 @@ TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly r
   const auto cell = model::propose_floquet_cell(tone, kLow, kHigh);
   REQUIRE(cell);
   const rigor::UpwardRounding upward;
-  const auto bounds = gains_of(loop.model, *cell, {64, 1024, 8}, 0);
+  const auto bounds = gains_of(loop.model, *cell, {64, 1024, 32}, 0);
   REQUIRE(bounds);
-  const double frequency = kLow + (kHigh - kLow) / 16.0;
+  const double frequency = kLow + (kHigh - kLow) / 64.0;
   for (const double noise : {0.002, 0.02, 0.05}) {
     const auto errors = errors_of(bounds, noise);
     REQUIRE(errors);

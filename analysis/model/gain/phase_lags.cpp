@@ -240,6 +240,7 @@ std::optional<PhaseTotals> PhaseKernels::totals_of(const std::vector<PhaseKernel
   }
   const auto total = [&](auto sums_of, Vector& result) {
     std::vector<Vector> sums;
+    sums.reserve(all.size());
     for (const PhaseKernels& each : all) {
       sums.push_back(sums_of(each));
     }
@@ -269,6 +270,7 @@ std::optional<PhaseTotals> PhaseKernels::totals_of(const std::vector<PhaseKernel
 std::optional<std::vector<double>> PhaseKernels::peak_of(const std::vector<PhaseKernels>& all,
                                                          const std::vector<double>& start) {
   std::vector<Vector> sums;
+  sums.reserve(all.size());
   for (const PhaseKernels& each : all) {
     sums.push_back(matrix_times(each.largest_power_.front(), start));
   }

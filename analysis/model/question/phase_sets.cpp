@@ -235,9 +235,10 @@ class PhaseSets {
 
 double samples_below(const PhaseProof& proof, const Interval& target) {
   const std::vector<double>& errors = proof.errors.from_block;
+  const std::size_t length = proof.gridding.horizon / PhaseKernels::kBlocks;
   for (std::size_t block = 0; block < errors.size(); ++block) {
     if (rigor::certainly_less(Interval(with_room(errors[block])), target)) {
-      return static_cast<double>(block * (proof.gridding.horizon / PhaseKernels::kBlocks));
+      return static_cast<double>(block * length);
     }
   }
   return INFINITY;

@@ -37,8 +37,7 @@ class GainClaims {
   [[nodiscard]] Errors assumed_errors() const;
   /// From all starts in which the one state that the frequency is a multiple of has frequency errors up to
   /// `reach`, at every phase.
-  [[nodiscard]] Errors errors_from(const Ball& reach, const Ball& noise,
-                                                      const Ball& slew) const;
+  [[nodiscard]] Errors errors_from(const Ball& reach, const Ball& noise, const Ball& slew) const;
   /// They stay at or below this, which is nearer to the true lock than to any other that the formulas show
   /// (false_lock.hpp).
   [[nodiscard]] bool is_lock(const Errors& errors, const Ball& error) const;

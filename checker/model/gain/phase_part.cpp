@@ -39,8 +39,8 @@ Chord chord_of(const BallPolynomial& x) {
   return chord;
 }
 
-/// How far a function is from a line whose ends are `left` and `right` above those of its chord: bend (s^2 - 1)
-/// goes from -bend to 0.
+/// How far a function is from a line whose ends are `left` and `right` above those of its chord: bend (s^2 -
+/// 1) goes from -bend to 0.
 double distance_from(const Chord& chord, double left, double right) {
   const double middle = 0.5 * (left + right);
   const double ends = up(std::abs(0.5 * (right - left)) + 0x1p-46 * (std::abs(left) + std::abs(right)));
@@ -128,8 +128,10 @@ class PartCollection {
       : structure_(&structure), forms_(structure.forms.size()) {
     const std::size_t n = structure.states;
     part_.matrix = matrix_near(cell, z, n);
-    part_.matrix_error.assign(n, std::vector<double>(n, 0.0));
-    part_.inverse = part_.turned = part_.matrix_error;
+    part_.inverse.assign(n, std::vector<double>(n, 0.0));
+    part_.turned = part_.inverse;
+    part_.matrix_low.assign(n, std::vector<double>(n, HUGE_VAL));
+    part_.matrix_high.assign(n, std::vector<double>(n, -HUGE_VAL));
     part_.residual.assign(n, 0.0);
     part_.half_width = cell.tube.half_width;
     for (std::size_t i = 0; i < n; ++i) {
@@ -147,7 +149,9 @@ class PartCollection {
     const std::size_t n = structure_->states;
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
-        raise(part_.matrix_error[i][j], run.columns[j][i] - BallPolynomial(part_.matrix[i][j]));
+        const DoubleRange entry = range_over_cell(run.columns[j][i]);
+        part_.matrix_low[i][j] = std::min(part_.matrix_low[i][j], entry.low);
+        part_.matrix_high[i][j] = std::max(part_.matrix_high[i][j], entry.high);
       }
       raise(part_.residual[i], run.residual[i]);
     }
@@ -161,16 +165,15 @@ class PartCollection {
     }
     add_cell(slew_, run.slew);
     part_.cells.push_back({std::move(run.rules), std::move(run.direct), std::move(run.to_input),
-                           range_over_cell(run.bias),
-                           range_over_cell(run.bias.mean_over_phase())});
+                           range_over_cell(run.bias), range_over_cell(run.bias.mean_over_phase())});
   }
 
   [[nodiscard]] PhasePart part() {
     for (const Chords& chords : forms_) {
       part_.forms.push_back(grid_from(chords));
     }
-    part_.inputs.push_back({grid_from(columns_[0]),
-                            structure_->channels > 1 ? grid_from(columns_[1]) : GridFunction{}});
+    part_.inputs.push_back(
+        {grid_from(columns_[0]), structure_->channels > 1 ? grid_from(columns_[1]) : GridFunction{}});
     part_.inputs.push_back({grid_from(slew_), {}});
     for (std::size_t column = structure_->channels; column < columns_.size(); ++column) {
       part_.inputs.push_back({grid_from(columns_[column]), {}});
@@ -194,7 +197,14 @@ bool is_known(const PhasePart& part, std::size_t phases, std::size_t states) {
     return std::all_of(table.begin(), table.end(), are_sizes);
   };
   const auto is_grid = [&](const GridFunction& f) { return is_grid_function(f, phases, states); };
-  return are_rows(part.matrix_error) && are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
+  for (std::size_t i = 0; i < states * states; ++i) {
+    const double low = part.matrix_low[i / states][i % states];
+    const double high = part.matrix_high[i / states][i % states];
+    if (!(std::isfinite(low) && std::isfinite(high) && low <= high)) {
+      return false;
+    }
+  }
+  return are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
          are_sizes(part.residual) && are_sizes(part.curve_bend) && part.cells.size() == phases &&
          std::all_of(part.forms.begin(), part.forms.end(), is_grid) &&
          std::all_of(part.inputs.begin(), part.inputs.end(), [&](const PhaseInput& input) {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <random>
 
-#include "checker/model/gain/phase_structure.hpp"
 #include "checker/model/gain/exact_number.hpp"
+#include "checker/model/gain/phase_structure.hpp"
 #include "tests/checker/model/gain/gain_loops.hpp"
 
 namespace veritrack::checker {
@@ -43,10 +43,13 @@ double largest_share(const Rule& rule, double deviation) {
 
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all = {
-      {PhaseOperation::reciprocal, [](double x) { return 1 / x; }, [](double x) { return -1 / (x * x); }, 1.3},
-      {PhaseOperation::reciprocal, [](double x) { return 1 / x; }, [](double x) { return -1 / (x * x); }, -1.3},
+      {PhaseOperation::reciprocal, [](double x) { return 1 / x; }, [](double x) { return -1 / (x * x); },
+       1.3},
+      {PhaseOperation::reciprocal, [](double x) { return 1 / x; }, [](double x) { return -1 / (x * x); },
+       -1.3},
       {PhaseOperation::sine, [](double x) { return std::sin(x); }, [](double x) { return std::cos(x); }, 0.8},
-      {PhaseOperation::cosine, [](double x) { return std::cos(x); }, [](double x) { return -std::sin(x); }, 2.0},
+      {PhaseOperation::cosine, [](double x) { return std::cos(x); }, [](double x) { return -std::sin(x); },
+       2.0},
       {PhaseOperation::root, [](double x) { return std::sqrt(x); },
        [](double x) { return 0.5 / std::sqrt(x); }, 2.0},
       {PhaseOperation::exponential, [](double x) { return std::exp(x); },
@@ -175,8 +178,9 @@ TEST_CASE("Gates are the last values through which everything passes") {
 }
 
 TEST_CASE("What no rule is about is not covered") {
-  for (const std::string step : {"a' = max(a, y)\n", "a' = clamp(a, 0, 1)\n", "a' = sign(a)*y\n",
-                                 "a' = if(a > y, 1, 2)*y\n", "a' = abs(y)\n", "a' = stays_within(a, 0, y)\n"}) {
+  for (const std::string step :
+       {"a' = max(a, y)\n", "a' = clamp(a, 0, 1)\n", "a' = sign(a)*y\n", "a' = if(a > y, 1, 2)*y\n",
+        "a' = abs(y)\n", "a' = stays_within(a, 0, y)\n"}) {
     CAPTURE(step);
     CHECK_THROWS_AS(graph_of(step, {"a"}), NotCovered);
   }

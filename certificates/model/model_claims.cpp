@@ -68,7 +68,7 @@ class ModelClaims {
         claim.values.emplace_back("settled_frequency_error", settled);
         claim.statement += fmt::format(", and at or below {} in the long run", units_.at_most(settled));
       }
-      add(claim);
+      add(by(*deciding_, std::move(claim)));
     }
     if (const Scope scope = scope_of(*deciding_);
         scope.is_any && captures_start() && names_lock(*deciding_)) {
@@ -99,7 +99,7 @@ class ModelClaims {
           "varies "
           "by at most {} over the phase",
           units_.between(low, high), units_.at_most(ripple));
-      add(claim);
+      add(by(starts, std::move(claim)));
     }
   }
 
@@ -116,11 +116,12 @@ class ModelClaims {
                              "the frequency error stays below {} for ever", frequency_words);
       const bool is_met =
           keeps_starts() && rigor::certainly_less(Interval(deciding_->frequency_error), number->value);
+      claim = by(*deciding_, std::move(claim));
       decide(claim, guaranteed(), deciding_->frequency_error, *number, "The proved bound is {} rad/sample",
              guarantee_objection(is_met));
     }
     if (sets.settles_within) {
-      add(settling(assumed));
+      add(by(*deciding_, settling(assumed)));
     }
     if (const auto& number = require.captured_within) {
       add(captured(*number));
@@ -166,6 +167,7 @@ class ModelClaims {
       const Interval& bias = settled_set().bias;
       const double largest = std::max(bias.upper(), -bias.lower());
       const bool is_met = knows_bias() && rigor::certainly_less_equal(Interval(largest), number->value);
+      claim = by(settled_set(), std::move(claim));
       decide(claim, has_bias(), largest, *number, "The proved bound of the mean is {} rad/sample",
              objection_of(settled_set(), is_met), true);
     }
@@ -177,6 +179,7 @@ class ModelClaims {
                       frequency_words(*number));
       const bool is_met =
           knows_bias() && rigor::certainly_less_equal(Interval(settled_set().ripple), number->value);
+      claim = by(settled_set(), std::move(claim));
       decide(claim, has_bias(), settled_set().ripple, *number, "It varies by at most {} rad/sample",
              objection_of(settled_set(), is_met), true);
     }
@@ -194,6 +197,13 @@ class ModelClaims {
     claim.hypotheses = hypotheses;
     claim.statement = hypotheses;
     claim.verdict = Verdict::proved;
+    return claim;
+  }
+  /// Beside tubes, a claim by gains says so.
+  [[nodiscard]] Claim by(const ProvedSet& set, Claim claim) const {
+    if (sets_->phases && set.is_by_gains) {
+      claim.values.emplace_back("by", "gains");
+    }
     return claim;
   }
   /// " (by the set "assumed" of the certificate)", for a set that was made for something else.
@@ -260,7 +270,7 @@ class ModelClaims {
                     by_set(*limits.noise.set, "noise"), in_lock(*limits.noise.set));
     if (limits.reach.set != nullptr && limits.reach.set->is_by_gains != limits.noise.set->is_by_gains) {
       add_part(claim, limits.part);
-      add(claim);
+      add(by(*limits.noise.set, std::move(claim)));
       add_reach(limits);
       return;
     }
@@ -275,7 +285,7 @@ class ModelClaims {
           units_.at_most(within), units_.at_least(reach));
     }
     add_part(claim, limits.part);
-    add(claim);
+    add(by(*limits.noise.set, std::move(claim)));
   }
   /// The reach alone, where it is proved in another way than the noise.
   void add_reach(const ModelLimits& limits) {
@@ -289,7 +299,7 @@ class ModelClaims {
         "errors up to {} at every phase",
         units_.at_most(within), units_.at_least(reach));
     add_part(claim, limits.part);
-    add(claim);
+    add(by(set, std::move(claim)));
   }
   /// The noise of the set that tolerates this slew is tolerated together with it.
   void add_slew_limit(const SlewLimit& limit) {
@@ -310,7 +320,7 @@ class ModelClaims {
         fmt::format(", the tracker tolerates a slew up to {}{}: a certified invariant set exists{}",
                     units_.slew(slew), by_set(set, "slew"), in_lock(set));
     add_part(claim, limit.part);
-    add(claim);
+    add(by(set, std::move(claim)));
   }
   /// The frequencies for which the set is proved.
   [[nodiscard]] Scope scope_of(const ProvedSet& set) const {
@@ -379,6 +389,7 @@ class ModelClaims {
       claim.verdict = Verdict::proved;
       claim.values = {{"frequency_error", above(set.frequency_error)}};
     }
+    claim = by(set, std::move(claim));
     claim.reason = fmt::format(fmt::runtime(reason), below(size)) +
                    (holds     ? "."
                     : is_lock ? fmt::format("; {} was required.", number.text)

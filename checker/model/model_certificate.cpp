@@ -119,33 +119,75 @@ std::map<std::string, TubeFamily> verified_sets(const Tree& tubes, const Tracked
   return std::move(read.families);
 }
 
-void verify_gains(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
-                  Verification& result) {
-  Objections objections;
-  if (certificate.find("tubes") != nullptr) {
-    objections.emplace_back("tubes and gains in one certificate");
-  }
-  const Tree& evidence = certificate.at("gains");
+/// A loop that is verified by gains, or nothing where they could not be.
+struct ByGains {
   std::unique_ptr<Gains> gains;
   std::unique_ptr<PhaseBounds> with_phases;
-  if (evidence.find("cells") != nullptr) {
-    with_phases = read_phase_gains(evidence, model, design, objections);
+
+  [[nodiscard]] const LoopBounds* loop() const {
+    return with_phases ? static_cast<const LoopBounds*>(with_phases.get()) : gains.get();
+  }
+  [[nodiscard]] const GainNetwork* network() const { return gains ? &gains->network : nullptr; }
+};
+
+bool has_phases(const Tree& certificate) {
+  const Tree* evidence = certificate.find("gains");
+  return evidence != nullptr && evidence->find("cells") != nullptr;
+}
+
+ByGains verified_gains(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
+                       Verification& result) {
+  ByGains found;
+  Objections objections;
+  const Tree& evidence = certificate.at("gains");
+  if (has_phases(certificate)) {
+    found.with_phases = read_phase_gains(evidence, model, design, objections);
   } else {
-    gains = read_gains(evidence, certificate.at("design").at("model"), *model.recursion, design, objections);
+    found.gains =
+        read_gains(evidence, certificate.at("design").at("model"), *model.recursion, design, objections);
   }
   result.parts.push_back({"gains", objections});
-  const LoopBounds* const loop =
-      with_phases ? static_cast<const LoopBounds*>(with_phases.get()) : gains.get();
-  const GainClaims claims(certificate, design, model, loop, gains ? &gains->network : nullptr);
-  const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
+  return found;
+}
+
+/// By gains alone.
+void verify_by_gains(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
+                     Verification& result) {
+  const ByGains found = verified_gains(certificate, design, model, result);
+  const GainClaims claims(certificate, design, model, found.loop(), found.network());
+  const auto check = [&](const Tree& claim, Objections& objections) {
+    return claims.check(claim, objections);
+  };
   check_claims(certificate, claims.required(), check, result);
+}
+
+/// By tubes, and with gains beside them: each claim by that which it names.
+void verify_by_tubes(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
+                     Verification& result) {
+  const std::map<std::string, TubeFamily> sets =
+      verified_sets(certificate.at("tubes"), model, design, result);
+  const ModelClaims by_tubes(certificate, design, model, sets, result.cells);
+  const ByGains found =
+      has_phases(certificate) ? verified_gains(certificate, design, model, result) : ByGains();
+  const GainClaims by_gains(certificate, design, model, found.loop(), found.network());
+  const auto check = [&](const Tree& claim, Objections& objections) {
+    const Tree* by = claim.find("by");
+    if (by == nullptr) {
+      return by_tubes.check(claim, objections);
+    }
+    if (!by->is("gains")) {
+      objections.emplace_back("a claim is by gains, or names nothing");
+    }
+    return by_gains.check(claim, objections);
+  };
+  check_claims(certificate, by_tubes.required(), check, result);
 }
 
 void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
   const Tree& tree = certificate.at("design");
   Objections objections;
   ModelRecursion recursion(tree.at("model"));
-  const bool by_gains = certificate.find("gains") != nullptr;
+  const bool by_gains = certificate.find("gains") != nullptr && !has_phases(certificate);
   // One channel does not tell a frequency from its negative, and tubes are for positive ones.
   const bool both_signs =
       recursion.samples() == 2 && (by_gains || certificate.at("tubes").elements().empty());
@@ -153,6 +195,9 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   objections.insert(objections.end(), recursion.objections().begin(), recursion.objections().end());
   if (states_of_tubes(recursion, recursion.filtered() > 0) > kMostStates) {
     objections.emplace_back("too many states");
+  }
+  if (by_gains && certificate.find("tubes") != nullptr) {
+    objections.emplace_back("tubes beside gains that are the same at all phases");
   }
   result.parts.push_back({"design", objections});
   if (!objections.empty()) {
@@ -163,14 +208,10 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   }
   const TrackedModel model{&recursion, design.amplitude, design.amplitude_varies};
   if (by_gains) {
-    verify_gains(certificate, design, model, result);
-    return;
+    verify_by_gains(certificate, design, model, result);
+  } else {
+    verify_by_tubes(certificate, design, model, result);
   }
-  const std::map<std::string, TubeFamily> sets =
-      verified_sets(certificate.at("tubes"), model, design, result);
-  const ModelClaims claims(certificate, design, model, sets, result.cells);
-  const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
-  check_claims(certificate, claims.required(), check, result);
 }
 
 }  // namespace

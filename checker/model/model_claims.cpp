@@ -412,23 +412,33 @@ Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
   bool certain =
       noise != nullptr && certainly_positive(tolerated) && certainly_at_most(tolerated, Ball(noise->noise()));
   if (const Tree* errors = claim.find("reach")) {
-    const Ball reach = written(claim, "reach");
-    const Ball within = written(claim, "reach_frequency_error");
     found.statement += ", and without noise a certified invariant set in which it stays at or below " +
                        units_.at_most(claim.at("reach_frequency_error").text()) +
                        " contains frequency errors up to " + units_.at_least(errors->text()) +
                        " at every phase";
-    // A set for some noise is also one without noise.
-    const auto contains = [&](const char* name) {
-      const TubeFamily* set = find(name, part);
-      return set != nullptr && !set->is_gaussian() && of(*set).contains_errors(reach) &&
-             is_lock(*set, within, part);
-    };
-    certain = certain && certainly_positive(reach) &&
-              (contains("starts") || contains("assumed") || contains("noise") || contains("slew"));
+    certain =
+        certain && contains_errors(written(claim, "reach"), written(claim, "reach_frequency_error"), part);
   }
   found.statement += ".";
   found.verdict = proved_if(certain);
+  return found;
+}
+
+bool ModelClaims::contains_errors(const Ball& reach, const Ball& error, const Part& part) const {
+  // A set for some noise is also one without noise.
+  const auto contains = [&](const char* name) {
+    const TubeFamily* set = find(name, part);
+    return set != nullptr && !set->is_gaussian() && of(*set).contains_errors(reach) &&
+           is_lock(*set, error, part);
+  };
+  return certainly_positive(reach) &&
+         (contains("starts") || contains("assumed") || contains("noise") || contains("slew"));
+}
+
+Claim ModelClaims::reach(const Tree& claim, const Part& part) const {
+  Claim found = reach_claim(claim, ModelWords(*tree_, part, bound_covariance(*sets_)), units_);
+  found.verdict =
+      proved_if(contains_errors(written(claim, "reach"), written(claim, "frequency_error"), part));
   return found;
 }
 
@@ -476,8 +486,8 @@ Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
 Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const std::string& id = claim.at("id").text();
   const std::vector<Requirement> asked = required();
-  const bool is_told = id == kGuarantee || id == kCapture || id == kLimits || id == kSlewLimit ||
-                       id == kSteadyState || id == kLock || id == kLowestSnr;
+  const bool is_told = id == kGuarantee || id == kCapture || id == kLimits || id == kReach ||
+                       id == kSlewLimit || id == kSteadyState || id == kLock || id == kLowestSnr;
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
   if (!is_told && !is_asked) {
@@ -489,6 +499,7 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   Claim found = id == kGuarantee               ? guarantee(claim, part)
                 : id == kCapture               ? capture(claim, part)
                 : id == kLimits                ? limits(claim, part)
+                : id == kReach                 ? reach(claim, part)
                 : id == kSlewLimit             ? slew_limit(claim, part)
                 : id == kSteadyState           ? steady_state(claim, part)
                 : is_lock                      ? reported_lock(claim)

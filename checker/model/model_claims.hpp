@@ -77,6 +77,9 @@ class ModelClaims {
                                           double (TubeFamily::*tolerated)() const, const Ball& error,
                                           const Part& part) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Part& part) const;
+  /// Without noise some set that is a lock with this error contains frequency errors up to `reach`.
+  [[nodiscard]] bool contains_errors(const Ball& reach, const Ball& error, const Part& part) const;
+  [[nodiscard]] Claim reach(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim slew_limit(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;
 

@@ -13,6 +13,17 @@ Ball written(const Tree& claim, const char* name) {
   return from_decimal(text);
 }
 
+Claim reach_claim(const Tree& claim, const ModelWords& words, const FrequencyWords& units) {
+  Claim found;
+  found.is_summary = true;
+  found.hypotheses = words.constant_tone() + ", without noise";
+  found.statement = found.hypotheses +
+                    ", a certified invariant set in which the frequency error stays at or below " +
+                    units.at_most(claim.at("frequency_error").text()) + " contains frequency errors up to " +
+                    units.at_least(claim.at("reach").text()) + " at every phase.";
+  return found;
+}
+
 RequiredClaims::RequiredClaims(const Tree& certificate, const ModelDesign& design, std::string captured_in)
     : claims_(&certificate.at("claims")),
       design_(&design),

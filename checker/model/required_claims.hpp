@@ -22,6 +22,7 @@ inline const std::string kGuarantee = "model/guarantee";
 inline const std::string kCapture = "model/capture";
 inline const std::string kCaptureTime = "model/capture-time";
 inline const std::string kLimits = "model/limits";
+inline const std::string kReach = "model/reach";
 inline const std::string kSlewLimit = "model/slew-limit";
 inline const std::string kSteadyState = "model/steady-state";
 inline const std::string kStability = "model/stability";
@@ -31,6 +32,9 @@ inline const std::string kLowestSnr = "model/lowest-snr";
 
 /// A decimal that the claim writes: the statement on a value, exactly.
 Ball written(const Tree& claim, const char* name);
+
+/// The sentence of kReach, without a verdict.
+Claim reach_claim(const Tree& claim, const ModelWords& words, const FrequencyWords& units);
 
 class RequiredClaims {
  public:

@@ -21,7 +21,7 @@ constexpr double kNear = 1.6;
 
 /// For a checker whose bounds are cruder.
 double with_room(double bound) {
-  return rigor::mul_up(bound, 1.01);
+  return rigor::mul_up(bound, 1.025);
 }
 
 class PhaseSets {
@@ -197,11 +197,11 @@ class PhaseSets {
   }
 
   [[nodiscard]] PhaseProof proof() const {
-    constexpr double kRoom = 0.998;
+    constexpr double kRoom = 0.975;
     PhaseProof proof{loop_->cells(), loop_->gridding(), *assumed_, set_of(kStarts, {}, still_), {}, {}};
     ProvedSet& starts = proof.starts;
     const double width = with_room(still_->ripple);
-    starts.bias = still_->mean + Interval::from_bounds(-0.01 * width - 1e-13, 0.01 * width + 1e-13);
+    starts.bias = still_->mean + Interval::from_bounds(-0.03 * width - 1e-13, 0.03 * width + 1e-13);
     starts.ripple = rigor::add_up(width, 1e-13);
     if (reach_ > 0.0 && at_reach_) {
       starts.reach = kRoom * reach_;

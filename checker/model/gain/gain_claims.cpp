@@ -149,6 +149,13 @@ Claim GainClaims::limits(const Tree& claim) const {
   return found;
 }
 
+Claim GainClaims::reach(const Tree& claim) const {
+  Claim found = reach_claim(claim, words_, units_);
+  found.verdict =
+      proved_if(is_lock(errors_from(written(claim, "reach"), zero, zero), written(claim, "frequency_error")));
+  return found;
+}
+
 Claim GainClaims::slew_limit(const Tree& claim) const {
   const Ball slew = written(claim, "slew");
   Ball together;
@@ -216,14 +223,15 @@ Claim GainClaims::check(const Tree& claim, Objections& objections) const {
   const std::vector<Requirement> asked = required();
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
-  const bool is_told =
-      id == kGuarantee || id == kLimits || id == kSlewLimit || id == kSteadyState || id == kStability;
+  const bool is_told = id == kGuarantee || id == kLimits || id == kReach || id == kSlewLimit ||
+                       id == kSteadyState || id == kStability;
   if (!is_told && (!is_asked || id == kCaptureTime)) {
     objections.emplace_back(is_asked ? "gains do not decide this" : "[require] does not ask for this");
     return {};
   }
   Claim found = id == kGuarantee     ? guarantee(claim)
                 : id == kLimits      ? limits(claim)
+                : id == kReach       ? reach(claim)
                 : id == kSlewLimit   ? slew_limit(claim)
                 : id == kSteadyState ? steady_state(claim)
                 : id == kStability   ? stability(claim)

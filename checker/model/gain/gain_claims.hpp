@@ -50,6 +50,7 @@ class GainClaims {
   [[nodiscard]] Claim required_claim(const Tree& claim) const;
   [[nodiscard]] Claim guarantee(const Tree& claim) const;
   [[nodiscard]] Claim limits(const Tree& claim) const;
+  [[nodiscard]] Claim reach(const Tree& claim) const;
   [[nodiscard]] Claim slew_limit(const Tree& claim) const;
   [[nodiscard]] Claim steady_state(const Tree& claim) const;
   [[nodiscard]] Claim stability(const Tree& claim) const;

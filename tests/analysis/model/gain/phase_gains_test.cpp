@@ -1,9 +1,10 @@
 // Bounds that are resolved over the phases, attacked: the noise that pushes in the direction of the linear
 // response at every sample, and random noise, from the steady state.
-#include "analysis/model/gain/phase_bounds.hpp"
+#include "analysis/model/gain/phase_gains.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -16,6 +17,28 @@ namespace veritrack {
 namespace {
 
 constexpr double kLow = 0.29, kHigh = 0.31;
+
+/// Of part number `part` at a constant frequency, or of all parts with a slew.
+std::optional<model::PhaseGains> gains_of(const model::TrackerModel& tracker, const model::FloquetCell& cell,
+                                          const model::PhaseGridding& gridding, std::size_t part,
+                                          double slew = 0.0) {
+  std::vector<model::PhasePart> parts;
+  for (std::size_t p = 0; p < gridding.parts; ++p) {
+    if (p == part || slew > 0.0) {
+      auto made = model::phase_part(tracker, cell, gridding, p);
+      if (!made) {
+        return std::nullopt;
+      }
+      parts.push_back(*std::move(made));
+    }
+  }
+  return model::PhaseGains::make(std::move(parts), gridding, slew);
+}
+
+std::optional<model::PhaseErrors> errors_of(const std::optional<model::PhaseGains>& gains, double noise,
+                                            double slew = 0.0, const std::vector<double>& start = {}) {
+  return gains ? gains->errors({noise, slew, start}) : std::nullopt;
+}
 
 Eigen::VectorXd curve_at(const model::FloquetCell& cell, double phase, double frequency) {
   return test::PointTube(cell.curve).curve(phase, frequency);
@@ -57,11 +80,11 @@ TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly r
   const auto cell = model::propose_floquet_cell(tone, kLow, kHigh);
   REQUIRE(cell);
   const rigor::UpwardRounding upward;
-  const auto bounds = model::PhaseLoop::make(loop.model, *cell, {64, 1024, 8}, 0);
+  const auto bounds = gains_of(loop.model, *cell, {64, 1024, 32}, 0);
   REQUIRE(bounds);
-  const double frequency = kLow + (kHigh - kLow) / 16.0;
+  const double frequency = kLow + (kHigh - kLow) / 64.0;
   for (const double noise : {0.002, 0.02, 0.05}) {
-    const auto errors = bounds->errors(noise);
+    const auto errors = errors_of(bounds, noise);
     REQUIRE(errors);
     CHECK(errors->long_run <= errors->for_ever);
     double reached = 0.0;
@@ -74,7 +97,7 @@ TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly r
   }
   std::mt19937 random(20261129);
   std::uniform_real_distribution<double> any(-0.05, 0.05);
-  const double bound = bounds->errors(0.05)->for_ever;
+  const double bound = errors_of(bounds, 0.05)->for_ever;
   double phase = 0.0;
   Eigen::VectorXd state = curve_at(*cell, phase, frequency);
   for (int k = 0; k < 20000; ++k) {
@@ -84,16 +107,56 @@ TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly r
   }
 }
 
+TEST_CASE("starts and a frequency that moves stay within their bounds") {
+  const test::Example loop(test::phase_locked_loop(0.02));
+  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
+  REQUIRE(cell);
+  constexpr double kNoise = 0.01, kSlew = 1e-6, kOff = 0.002;
+  const rigor::UpwardRounding upward;
+  const auto gains = gains_of(loop.model, *cell, {32, 1024, 8}, 0, kSlew);
+  const auto settled = errors_of(gains, kNoise, kSlew);
+  const auto started = errors_of(gains, kNoise, kSlew, {kOff, 0.0});
+  REQUIRE(settled);
+  REQUIRE(started);
+  CHECK(settled->for_ever <= started->for_ever);
+  CHECK(started->from_block.back() <= started->from_block.front());
+  CHECK_FALSE(errors_of(gains, kNoise, 2.0 * kSlew));
+  std::mt19937 random(20261129);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  std::uniform_real_distribution<double> place(0.0, 1.0);
+  double reached = 0.0;
+  for (int run = 0; run < 40; ++run) {
+    double phase = 2.0 * std::numbers::pi * place(random);
+    double frequency = kLow + (kHigh - kLow) * place(random);
+    const double direction = run % 2 == 0 ? 1.0 : -1.0;
+    Eigen::VectorXd state = curve_at(*cell, phase, frequency);
+    state(0) += kOff * any(random);
+    for (std::size_t k = 0; k < 2000; ++k) {
+      phase = std::remainder(phase + frequency, 2.0 * std::numbers::pi);
+      // The same sign most of the time: that moves the estimate further.
+      const double noise = kNoise * (any(random) < 0.5 ? direction : -direction);
+      state = test::next_state(loop.tracker, state, std::cos(phase) + noise);
+      frequency = std::clamp(frequency + direction * kSlew, kLow, kHigh);
+      const double error = std::fabs(state(0) - frequency);
+      reached = std::max(reached, error);
+      REQUIRE(error <= started->from_block[std::min(k * model::PhaseKernels::kBlocks / 1024,
+                                                    model::PhaseKernels::kBlocks - 1)]);
+    }
+  }
+  CHECK(reached > 0.2 * started->for_ever);
+}
+
 TEST_CASE("too much noise, and a horizon that is too short, bound nothing") {
   const test::Example loop(test::phase_locked_loop(0.02));
   const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
   REQUIRE(cell);
   const rigor::UpwardRounding upward;
-  const auto bounds = model::PhaseLoop::make(loop.model, *cell, {64, 1024, 8}, 3);
+  const auto bounds = gains_of(loop.model, *cell, {64, 1024, 8}, 3);
   REQUIRE(bounds);
-  CHECK_FALSE(bounds->errors(0.5));
-  CHECK_FALSE(bounds->errors(NAN));
-  CHECK_FALSE(model::PhaseLoop::make(loop.model, *cell, {64, 16, 8}, 3));
+  CHECK_FALSE(errors_of(bounds, 0.5));
+  CHECK_FALSE(errors_of(bounds, NAN));
+  CHECK_FALSE(errors_of(bounds, 0.01, 1e-6));  // made without a slew
+  CHECK_FALSE(gains_of(loop.model, *cell, {64, 16, 8}, 3));
 }
 
 TEST_CASE("a wrong basis, matrix or curve is noticed") {
@@ -101,13 +164,12 @@ TEST_CASE("a wrong basis, matrix or curve is noticed") {
   const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
   REQUIRE(cell);
   const rigor::UpwardRounding upward;
-  const auto right = model::PhaseLoop::make(loop.model, *cell, {64, 1024, 8}, 3)->errors(0.02);
+  const auto right = errors_of(gains_of(loop.model, *cell, {64, 1024, 8}, 3), 0.02);
   REQUIRE(right);
   const auto with = [&](auto change) {
     model::FloquetCell changed = *cell;
     change(changed);
-    const auto made = model::PhaseLoop::make(loop.model, changed, {64, 1024, 8}, 3);
-    const auto errors = made ? made->errors(0.02) : std::nullopt;
+    const auto errors = errors_of(gains_of(loop.model, changed, {64, 1024, 8}, 3), 0.02);
     return errors ? errors->for_ever : INFINITY;
   };
   // Another basis is another proof of the same bound, or none; another curve or matrix costs.

@@ -133,7 +133,7 @@ const PhaseBounds::Groups& PhaseBounds::groups(double slew) const {
       together.push_back(&part);
       if (slew == 0.0) {
         groups_.push_back(std::make_shared<const PhaseGroup>(std::exchange(together, {}), evidence_.phases,
-                                                       evidence_.horizon, slew));
+                                                             evidence_.horizon, slew));
       }
     }
   }
@@ -184,9 +184,8 @@ std::unique_ptr<FrequencyErrors> PhaseBounds::errors(const Ball& noise, const Ba
     std::vector<double> late = solver->in_long_run(*bounds)[evidence_.structure.error_form];
     errors.push_back({group, *std::move(bounds), std::move(late), std::move(solver)});
   }
-  return errors.empty()
-             ? nullptr
-             : std::make_unique<PhaseErrors>(std::move(errors), evidence_.structure.error_form);
+  return errors.empty() ? nullptr
+                        : std::make_unique<PhaseErrors>(std::move(errors), evidence_.structure.error_form);
 }
 
 std::vector<Ball> PhaseBounds::starts_within(const Ball& reach) const {

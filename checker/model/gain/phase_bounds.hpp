@@ -41,18 +41,17 @@ class PhaseSolver {
   [[nodiscard]] std::vector<double> of_form(const Sizes& sizes, std::size_t part, std::size_t form,
                                             double start) const;
   [[nodiscard]] std::optional<PhaseTable> next(const PhaseTable& bounds, bool is_started) const;
-  [[nodiscard]] double direct(const Sizes& sizes, std::size_t part, std::size_t form,
-                              std::size_t cell) const;
+  [[nodiscard]] double direct(const Sizes& sizes, std::size_t part, std::size_t form, std::size_t cell) const;
   [[nodiscard]] double of_start(std::size_t part, std::size_t form, std::size_t first) const;
 
   const PhaseLoopEvidence* evidence_;
   const PhaseGroup* group_;
   double noise_;
-  std::vector<double> start_;              ///< of eta
-  std::optional<Table> late_starts_;       ///< M p by part
-  Table starts_;                           ///< by part and form
+  std::vector<double> start_;                ///< of eta
+  std::optional<Table> late_starts_;         ///< M p by part
+  Table starts_;                             ///< by part and form
   std::vector<std::vector<EndSums>> given_;  ///< of noise and slew, by part and form
-  Table given_rest_;                       ///< by part and form
+  Table given_rest_;                         ///< by part and form
 };
 
 class PhaseBounds : public LoopBounds {

@@ -160,8 +160,7 @@ std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedMo
     for (const PhaseCell& cell : cells) {
       evidence.cells.emplace_back();
       for (std::size_t part = 0; part < cell.parts; ++part) {
-        evidence.cells.back().push_back(
-            phase_part(evidence.structure, model, cell, part, evidence.phases));
+        evidence.cells.back().push_back(phase_part(evidence.structure, model, cell, part, evidence.phases));
       }
     }
     auto bounds = std::make_unique<PhaseBounds>(std::move(evidence));

@@ -70,11 +70,11 @@ Recorded operator-(const Recorded& x, const Recorded& y) {
                            : record(PhaseOperation::difference, x, y);
 }
 Recorded operator*(const Recorded& x, const Recorded& y) {
-  return are_numbers(x, y)              ? Recorded(x.number() * y.number())
-         : x.is(0.0) || y.is(0.0)       ? Recorded(0.0)
-         : x.is(1.0)                    ? y
-         : y.is(1.0)                    ? x
-                                        : record(PhaseOperation::product, x, y);
+  return are_numbers(x, y)        ? Recorded(x.number() * y.number())
+         : x.is(0.0) || y.is(0.0) ? Recorded(0.0)
+         : x.is(1.0)              ? y
+         : y.is(1.0)              ? x
+                                  : record(PhaseOperation::product, x, y);
 }
 Recorded operator/(const Recorded& x, const Recorded& y) {
   return x * (y.is_number() ? Recorded(reciprocal(y.number())) : record(PhaseOperation::reciprocal, y));
@@ -124,8 +124,8 @@ Recorded stays_within(const Recorded& x, const Recorded& low, const Recorded& hi
     refuse("limits that are not numbers");
   }
   return x.is_number() ? Recorded(stays_within(x.number(), low.number(), high.number()))
-                       : Recorded(*x.nodes(), {PhaseOperation::within, x.in(*x.nodes()), 0, low.number(),
-                                               high.number()});
+                       : Recorded(*x.nodes(),
+                                  {PhaseOperation::within, x.in(*x.nodes()), 0, low.number(), high.number()});
 }
 Recorded larger(const Recorded& x, const Recorded& y) {
   return are_numbers(x, y) ? Recorded(larger(x.number(), y.number())) : (refuse("max, min and abs"), x);

@@ -125,13 +125,13 @@ std::optional<std::vector<double>> closed_together(const std::vector<const Table
 
 /// A part with what the move of the frequency after its step multiplies everything by.
 struct PhaseGroup::Widened {
-  Table matrix_error;
+  Table of_matrix;  ///< by how much more the matrix may differ
   std::vector<std::array<std::vector<double>, 2>> column_errors;
   std::vector<double> residual;
 };
 
 std::optional<PhaseGroup::Widened> PhaseGroup::widened(const PhasePart& part) const {
-  Widened result{part.matrix_error, {}, part.residual};
+  Widened result{Table(part.matrix.size(), std::vector<double>(part.matrix.size(), 0.0)), {}, part.residual};
   for (const PhaseInput& input : part.inputs) {
     result.column_errors.push_back({input.first.error, input.second.error});
   }
@@ -149,16 +149,13 @@ std::optional<PhaseGroup::Widened> PhaseGroup::widened(const PhasePart& part) co
   if (!more) {
     return std::nullopt;
   }
-  Table size = part.matrix_error;
+  Table size = part.matrix;
   for (std::size_t i = 0; i < size.size(); ++i) {
     for (std::size_t j = 0; j < size.size(); ++j) {
-      size[i][j] = up(size[i][j] + std::abs(part.matrix[i][j]));
+      size[i][j] = largest_in({part.matrix_low[i][j], part.matrix_high[i][j]});
     }
   }
-  const Table of_matrix = product_above(*more, size);
-  for (std::size_t i = 0; i < size.size(); ++i) {
-    add_to(result.matrix_error[i], of_matrix[i]);
-  }
+  result.of_matrix = product_above(*more, size);
   std::vector<double> bend = product_above(part.inverse, part.curve_bend);
   for (double& entry : bend) {
     entry = up(upward_product(0.5 * slew_, entry));
@@ -183,8 +180,8 @@ std::vector<PhaseStage> PhaseGroup::stages(const std::vector<Widened>& all, std:
   // Where each part comes in: it is at most (k + 1) slew away.
   std::vector<std::pair<double, std::size_t>> arrivals;
   for (std::size_t other = 0; other < parts_.size(); ++other) {
-    const Ball gap = max(parts_[other]->lowest - parts_[part]->highest,
-                         parts_[part]->lowest - parts_[other]->highest);
+    const Ball gap =
+        max(parts_[other]->lowest - parts_[part]->highest, parts_[part]->lowest - parts_[other]->highest);
     const double lag = other == part || slew_ == 0.0 ? 0.0 : (gap / Ball(slew_)).lower_double() - 2.0;
     arrivals.emplace_back(lag > 0.0 ? std::floor(lag) : 0.0, other);
   }
@@ -192,12 +189,15 @@ std::vector<PhaseStage> PhaseGroup::stages(const std::vector<Widened>& all, std:
   std::vector<PhaseStage> result;
   for (const auto& [lag, other] : arrivals) {
     spend(static_cast<std::int64_t>(phases_));
-    PhaseStage stage{static_cast<std::size_t>(std::min(lag, 0x1p20)), all[other].matrix_error,
+    PhaseStage stage{static_cast<std::size_t>(std::min(lag, 0x1p20)), all[other].of_matrix,
                      all[other].column_errors};
     for (std::size_t i = 0; i < stage.matrix_error.size(); ++i) {
       for (std::size_t j = 0; j < stage.matrix_error.size(); ++j) {
-        const double distance = std::abs(parts_[other]->matrix[i][j] - parts_[part]->matrix[i][j]);
-        stage.matrix_error[i][j] = up(stage.matrix_error[i][j] + up(distance));
+        const double middle = parts_[part]->matrix[i][j];
+        const double distance = std::max(std::abs(parts_[other]->matrix_high[i][j] - middle),
+                                         std::abs(parts_[other]->matrix_low[i][j] - middle));
+        // Each difference is rounded once.
+        stage.matrix_error[i][j] = up(up(distance) + 0x1p-50 * std::abs(middle) + stage.matrix_error[i][j]);
       }
       if (!result.empty()) {
         raise_all(stage.matrix_error[i], result.back().matrix_error[i]);

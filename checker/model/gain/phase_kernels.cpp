@@ -34,9 +34,9 @@ bool is_stage(const PhaseStage& stage, const PhaseLoop& loop, std::size_t n) {
     for (const std::size_t part : {0U, 1U}) {
       const std::vector<double>& errors = stage.column_errors[input][part];
       const bool is_there = part == 0 || !loop.inputs[input].second.values.empty();
-      is_one = is_one && errors.size() == (is_there ? n : 0) &&
-               std::all_of(errors.begin(), errors.end(),
-                           [](double x) { return std::isfinite(x) && x >= 0.0; });
+      is_one =
+          is_one && errors.size() == (is_there ? n : 0) &&
+          std::all_of(errors.begin(), errors.end(), [](double x) { return std::isfinite(x) && x >= 0.0; });
     }
   }
   return is_one;
@@ -62,14 +62,13 @@ bool is_loop(const PhaseLoop& loop) {
   const auto is_grid = [&](const GridFunction& f) { return is_grid_function(f, phases, n); };
   return std::all_of(loop.matrix.begin(), loop.matrix.end(),
                      [&](const auto& row) {
-                       return row.size() == n && std::all_of(row.begin(), row.end(),
-                                                             [](double x) { return std::isfinite(x); });
+                       return row.size() == n &&
+                              std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
                      }) &&
          std::all_of(loop.forms.begin(), loop.forms.end(), is_grid) &&
          std::all_of(loop.inputs.begin(), loop.inputs.end(),
                      [&](const PhaseInput& input) {
-                       return is_grid(input.first) &&
-                              (input.second.values.empty() || is_grid(input.second));
+                       return is_grid(input.first) && (input.second.values.empty() || is_grid(input.second));
                      }) &&
          std::all_of(loop.stages.begin(), loop.stages.end(),
                      [&](const PhaseStage& stage) { return is_stage(stage, loop, n); });

@@ -10,15 +10,15 @@ namespace veritrack::checker {
 
 namespace {
 
-/// A function over a cell of phases: its values at both ends, in the middle of the frequencies, and how far
-/// it is from the line between them at any phase and frequency.
+/// A function over a cell of phases: its values at both ends, in the middle of the frequencies, how far it is
+/// from the line between them where it is bent by s^2, and at most otherwise, at any phase and frequency.
 struct Chord {
-  double left = 0.0, right = 0.0, distance = 0.0;
+  double left = 0.0, right = 0.0, bend = 0.0, distance = 0.0;
 };
 
-/// 1 - s^2, |s - s^3| and 1 - s^4 are at most 1, 2/27^(1/2) and 1.
+/// |s - s^3| and 1 - s^4 are at most 2/27^(1/2) and 1.
 Chord chord_of(const BallPolynomial& x) {
-  constexpr std::array<double, 5> kFromChord = {0.0, 0.0, 1.0, 0.3850, 1.0};
+  constexpr std::array<double, 5> kFromChord = {0.0, 0.0, 0.0, 0.3850, 1.0};
   Chord chord;
   const std::span<const double> places = x.block(0, 0);
   double size = 0.0;
@@ -32,27 +32,42 @@ Chord chord_of(const BallPolynomial& x) {
     }
     chord.left += powers.of_s % 2 == 0 ? coefficient : -coefficient;
     chord.right += coefficient;
+    chord.bend += powers.of_s == 2 ? coefficient : 0.0;
     chord.distance += kFromChord[static_cast<std::size_t>(powers.of_s)] * std::abs(coefficient);
   }
   chord.distance = up(chord.distance + x.error() + upward_product(0x1p-46, size));
   return chord;
 }
 
-/// A vector function of all phases: from its chords, by component and cell of phases.
+/// How far a function is from a line whose ends are `left` and `right` above those of its chord: bend (s^2 -
+/// 1) goes from -bend to 0.
+double distance_from(const Chord& chord, double left, double right) {
+  const double middle = 0.5 * (left + right);
+  const double ends = up(std::abs(0.5 * (right - left)) + 0x1p-46 * (std::abs(left) + std::abs(right)));
+  return up(chord.distance + std::max(std::abs(middle), up(std::abs(chord.bend + middle))) + ends);
+}
+
+/// A vector function of all phases: from its chords, by component and cell of phases. The values are moved by
+/// half the bend towards it, so that the function is on both sides of the line.
 GridFunction grid_from(const std::vector<std::vector<Chord>>& chords) {
   GridFunction result;
   const std::size_t phases = chords.empty() ? 0 : chords.front().size();
   result.values.assign(phases, std::vector<double>(chords.size()));
   for (std::size_t i = 0; i < chords.size(); ++i) {
+    for (std::size_t g = 0; g < phases; ++g) {
+      const double bend = 0.5 * (chords[i][g].bend + chords[i][(g + phases - 1) % phases].bend);
+      result.values[g][i] = chords[i][g].left - 0.5 * bend;
+    }
     double error = 0.0;
     bool is_known = true;
     for (std::size_t g = 0; g < phases; ++g) {
       const Chord& chord = chords[i][g];
-      const double next = chords[i][(g + 1) % phases].left;
-      result.values[g][i] = chord.left;
-      const double distance = up(chord.distance + std::abs(chord.right - next));
-      is_known = is_known && std::isfinite(distance);
-      error = std::max(error, distance);
+      const double distance = distance_from(chord, result.values[g][i] - chord.left,
+                                            result.values[(g + 1) % phases][i] - chord.right);
+      const double size = std::abs(chord.left) + std::abs(chord.right) + std::abs(result.values[g][i]);
+      const double whole = up(distance + upward_product(0x1p-46, size));
+      is_known = is_known && std::isfinite(whole);
+      error = std::max(error, whole);
     }
     result.error.push_back(is_known ? error : HUGE_VAL);
   }
@@ -69,14 +84,14 @@ void add_cell(Chords& chords, const PolynomialRow& row) {
   }
 }
 
-void raise(double& most, const Ball& value) {
-  most = std::max(most, upper(abs(value)));
+void raise(double& most, const BallPolynomial& value) {
+  most = std::max(most, largest_in(range_over_cell(value)));
 }
 
 void raise(Table& most, const PolynomialMatrix& matrix) {
   for (std::size_t i = 0; i < matrix.size(); ++i) {
     for (std::size_t j = 0; j < matrix[i].size(); ++j) {
-      raise(most[i][j], matrix[i][j].range());
+      raise(most[i][j], matrix[i][j]);
     }
   }
 }
@@ -113,8 +128,10 @@ class PartCollection {
       : structure_(&structure), forms_(structure.forms.size()) {
     const std::size_t n = structure.states;
     part_.matrix = matrix_near(cell, z, n);
-    part_.matrix_error.assign(n, std::vector<double>(n, 0.0));
-    part_.inverse = part_.turned = part_.matrix_error;
+    part_.inverse.assign(n, std::vector<double>(n, 0.0));
+    part_.turned = part_.inverse;
+    part_.matrix_low.assign(n, std::vector<double>(n, HUGE_VAL));
+    part_.matrix_high.assign(n, std::vector<double>(n, -HUGE_VAL));
     part_.residual.assign(n, 0.0);
     part_.half_width = cell.tube.half_width;
     for (std::size_t i = 0; i < n; ++i) {
@@ -132,10 +149,11 @@ class PartCollection {
     const std::size_t n = structure_->states;
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
-        raise(part_.matrix_error[i][j],
-              (run.columns[j][i] - BallPolynomial(part_.matrix[i][j])).range());
+        const DoubleRange entry = range_over_cell(run.columns[j][i]);
+        part_.matrix_low[i][j] = std::min(part_.matrix_low[i][j], entry.low);
+        part_.matrix_high[i][j] = std::max(part_.matrix_high[i][j], entry.high);
       }
-      raise(part_.residual[i], run.residual[i].range());
+      raise(part_.residual[i], run.residual[i]);
     }
     raise(part_.inverse, run.inverse);
     raise(part_.turned, run.turned);
@@ -147,16 +165,15 @@ class PartCollection {
     }
     add_cell(slew_, run.slew);
     part_.cells.push_back({std::move(run.rules), std::move(run.direct), std::move(run.to_input),
-                           doubles_around(run.bias.range()),
-                           doubles_around(run.bias.mean_over_phase().range())});
+                           range_over_cell(run.bias), range_over_cell(run.bias.mean_over_phase())});
   }
 
   [[nodiscard]] PhasePart part() {
     for (const Chords& chords : forms_) {
       part_.forms.push_back(grid_from(chords));
     }
-    part_.inputs.push_back({grid_from(columns_[0]),
-                            structure_->channels > 1 ? grid_from(columns_[1]) : GridFunction{}});
+    part_.inputs.push_back(
+        {grid_from(columns_[0]), structure_->channels > 1 ? grid_from(columns_[1]) : GridFunction{}});
     part_.inputs.push_back({grid_from(slew_), {}});
     for (std::size_t column = structure_->channels; column < columns_.size(); ++column) {
       part_.inputs.push_back({grid_from(columns_[column]), {}});
@@ -180,7 +197,14 @@ bool is_known(const PhasePart& part, std::size_t phases, std::size_t states) {
     return std::all_of(table.begin(), table.end(), are_sizes);
   };
   const auto is_grid = [&](const GridFunction& f) { return is_grid_function(f, phases, states); };
-  return are_rows(part.matrix_error) && are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
+  for (std::size_t i = 0; i < states * states; ++i) {
+    const double low = part.matrix_low[i / states][i % states];
+    const double high = part.matrix_high[i / states][i % states];
+    if (!(std::isfinite(low) && std::isfinite(high) && low <= high)) {
+      return false;
+    }
+  }
+  return are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
          are_sizes(part.residual) && are_sizes(part.curve_bend) && part.cells.size() == phases &&
          std::all_of(part.forms.begin(), part.forms.end(), is_grid) &&
          std::all_of(part.inputs.begin(), part.inputs.end(), [&](const PhaseInput& input) {

@@ -9,7 +9,6 @@
 
 namespace veritrack::checker {
 
-
 /// What is known over a cell of phases.
 struct PhaseCellValues {
   std::vector<RuleRange> rules;
@@ -22,8 +21,8 @@ struct PhaseCellValues {
 struct PhasePart {
   Ball lowest, highest;           ///< the frequencies, rad/sample, or more
   double half_width = 0.0;        ///< D of its cell
-  Table matrix;                   ///< near the matrix, row by row
-  Table matrix_error;             ///< sup |A - matrix|
+  Table matrix;                   ///< near the matrix in the middle, row by row
+  Table matrix_low, matrix_high;  ///< enclose all matrices
   std::vector<GridFunction> forms;
   std::vector<PhaseInput> inputs;  ///< noise, the slew, then those of the structure
   Table inverse;                   ///< sup |P^-1|

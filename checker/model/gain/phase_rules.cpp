@@ -123,15 +123,6 @@ bool is_kept(const PhaseNode& node, const RuleRange& range, double y) {
 
 }  // namespace
 
-DoubleRange doubles_around(const Ball& x) {
-  return x.finite() ? DoubleRange{x.lower_double(), x.upper_double()} : DoubleRange{-kUnbounded, kUnbounded};
-}
-
-double largest_in(const DoubleRange& range) {
-  const double most = std::max(-range.low, range.high);
-  return std::isfinite(range.low) && std::isfinite(range.high) ? std::max(most, 0.0) : kUnbounded;
-}
-
 RuleResult base_of(const PhaseNode& node, const BallPolynomial& first, const BallPolynomial& second) {
   RuleResult result;
   switch (node.operation) {
@@ -154,21 +145,21 @@ RuleResult base_of(const PhaseNode& node, const BallPolynomial& first, const Bal
       const BallPolynomial square = squared(first) + squared(second);
       const BallPolynomial inverse = reciprocal(square);
       result = {arctangent2(first, second), second * inverse, -(first * inverse), {}};
-      result.range.value = sqrt(square.range()).lower_double();
+      result.range.value = std::sqrt(std::max(0.0, range_over_cell(square).low)) * (1.0 - 0x1p-48);
       break;
     }
     default:
       result = result_of_function(node, first);
   }
-  const DoubleRange of_first = doubles_around(first.range());
-  const DoubleRange of_second = doubles_around(second.range());
+  const DoubleRange of_first = range_over_cell(first);
+  const DoubleRange of_second = range_over_cell(second);
   result.range.low = of_first.low;
   result.range.high = of_first.high;
   result.range.other_low = of_second.low;
   result.range.other_high = of_second.high;
   if (node.operation == PhaseOperation::sine || node.operation == PhaseOperation::cosine) {
-    result.range.value = std::min(largest_in(doubles_around(result.base.range())), 1.0);
-    result.range.slope = std::min(largest_in(doubles_around(result.by_first.range())), 1.0);
+    result.range.value = std::min(largest_in(range_over_cell(result.base)), 1.0);
+    result.range.slope = std::min(largest_in(range_over_cell(result.by_first)), 1.0);
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "checker/model/ball_polynomial.hpp"
 #include "checker/model/gain/phase_graph.hpp"
+#include "checker/model/gain/phase_range.hpp"
 
 namespace veritrack::checker {
 
@@ -28,13 +29,5 @@ RuleResult base_of(const PhaseNode& node, const BallPolynomial& first, const Bal
 /// A bound of the remainder where the operands deviate by at most these; infinite where the condition of the
 /// rule is not certain. 0 for `within`, where it is a condition alone, and for what is exact.
 double remainder_size(const PhaseNode& node, const RuleRange& range, double first, double second);
-
-/// The least and the largest value, outward; not finite where it is not known.
-struct DoubleRange {
-  double low = 0.0, high = 0.0;
-};
-DoubleRange doubles_around(const Ball& x);
-/// Not below |x|.
-double largest_in(const DoubleRange& range);
 
 }  // namespace veritrack::checker

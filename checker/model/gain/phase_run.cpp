@@ -12,7 +12,7 @@ namespace {
 
 /// Not below the size of any value.
 double supremum(const BallPolynomial& x) {
-  return largest_in(doubles_around(x.range()));
+  return largest_in(range_over_cell(x));
 }
 
 /// A value as its base and slopes, by variable.
@@ -161,8 +161,8 @@ std::size_t best_pivot(const PolynomialMatrix& matrix, std::size_t first) {
     for (std::size_t j = first; j < matrix.size(); ++j) {
       size = std::max(size, supremum(matrix[row][j]));
     }
-    const Ball entry = abs(matrix[row][first].range());
-    const double least = entry.finite() ? entry.lower_double() : 0.0;
+    const DoubleRange entry = range_over_cell(matrix[row][first]);
+    const double least = std::max(entry.low, -entry.high);
     if (least > 0.0 && least / size > farthest) {
       farthest = least / size;
       best = row;

@@ -15,8 +15,8 @@ namespace veritrack::checker {
 /// curve, and `shape` has all entries of the basis, row by row.
 struct PhaseCell {
   PhaseTube tube;
-  PhaseTube slope;  ///< the derivatives of the curve, without turns, and of the basis by z
-  std::size_t parts = 1;                    ///< of the frequencies
+  PhaseTube slope;        ///< the derivatives of the curve, without turns, and of the basis by z
+  std::size_t parts = 1;  ///< of the frequencies
   std::vector<std::vector<double>> matrix;  ///< coefficients of the powers of z, by entry
 };
 
@@ -29,7 +29,7 @@ struct PhaseRun {
   PolynomialMatrix forms;    ///< by form and component of eta
   PolynomialMatrix columns;  ///< by variable of the step (eta, noise, inputs) and component of eta
   PolynomialRow residual;
-  PolynomialRow slew;       ///< -P^-1 dC/d omega at a fixed phase
+  PolynomialRow slew;        ///< -P^-1 dC/d omega at a fixed phase
   PolynomialMatrix inverse;  ///< P^-1 a sample later
   PolynomialMatrix turned;   ///< P^-1 dP/d omega there, at a fixed phase
   BallPolynomial bias;

@@ -52,8 +52,8 @@ bool lower(Table& bounds, const Table& other) {
 
 /// Of remainders and inputs where forms are at most some bounds.
 struct PhaseSolver::Sizes {
-  std::vector<Table> remainders;   ///< by part, rule and cell
-  std::vector<Table> inputs;       ///< by part, input and cell
+  std::vector<Table> remainders;    ///< by part, rule and cell
+  std::vector<Table> inputs;        ///< by part, input and cell
   std::vector<PhaseSizes> sources;  ///< by input: the largest of all parts
 };
 

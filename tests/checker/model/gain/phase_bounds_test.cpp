@@ -150,8 +150,8 @@ TEST_CASE("A loop of second order in noise that pushes, simulated, stays below i
       const double push = k / period % 2 == 0 ? noise : -noise;  // at a right angle
       const double i = std::cos(phase) - push * std::sin(phase);
       const double q = std::sin(phase) + push * std::cos(phase);
-      const double d = std::atan2(q * std::cos(angle) - i * std::sin(angle),
-                                  i * std::cos(angle) + q * std::sin(angle));
+      const double d =
+          std::atan2(q * std::cos(angle) - i * std::sin(angle), i * std::cos(angle) + q * std::sin(angle));
       angle = angle + (speed + 2000.0 * d) / 12500.0;
       speed = speed + 30000.0 * d / 12500.0;
     }

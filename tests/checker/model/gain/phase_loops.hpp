@@ -32,12 +32,8 @@ constexpr double kHalfBand = 1e-3;
 
 /// One channel: w' = 0.9 w + 0.1 y^2. Its steady state is 0.5 + 0.05 Re e^(2 j phi)/(1 - 0.9 e^(-2 j omega)).
 inline Json smoothing_model() {
-  return {{"samples", {"y"}},
-          {"parameters", Json::array()},
-          {"angles", Json::array()},
-          {"states", {"w"}},
-          {"step", "w' = 0.9*w + 0.1*y*y\n"},
-          {"frequency", "w"},
+  return {{"samples", {"y"}},        {"parameters", Json::array()},      {"angles", Json::array()},
+          {"states", {"w"}},         {"step", "w' = 0.9*w + 0.1*y*y\n"}, {"frequency", "w"},
           {"signal", {"A*cos(phi)"}}};
 }
 
@@ -47,8 +43,7 @@ inline Json smoothing_gains() {
   const std::complex<double> u = 1.0 / (1.0 - e);
   const std::complex<double> slope = -2.0 * j * e * u * u;
   const std::complex<double> bend = -4.0 * e * u * u - 8.0 * e * e * u * u * u;
-  const Json second =
-      harmonic({0.05 * u, 0.05 * kHalfBand * slope, 0.025 * kHalfBand * kHalfBand * bend});
+  const Json second = harmonic({0.05 * u, 0.05 * kHalfBand * slope, 0.025 * kHalfBand * kHalfBand * bend});
   const Json unit = Json::array({Json::array({harmonic({1.0})})});
   Json cell;
   cell["frequency"] = exactly(kMeanFrequency);
@@ -72,8 +67,8 @@ inline Json narrow_motor_gains() {
   cell["half_width"] = exactly(width);
   cell["parts"] = 2;
   cell["turns"] = {1, 0};
-  cell["curve"] = Json::array({Json::array({harmonic({middle, width})}),
-                               Json::array({harmonic({middle * kRate, width * kRate})})});
+  cell["curve"] = Json::array(
+      {Json::array({harmonic({middle, width})}), Json::array({harmonic({middle * kRate, width * kRate})})});
   cell["basis"] = Json::array({unit, Json::array(), Json::array(), unit});
   cell["matrix"] =
       Json::array({Json::array({exactly(1.0 - 2000.0 / kRate)}), Json::array({exactly(1.0 / kRate)}),

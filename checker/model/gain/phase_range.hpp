@@ -1,0 +1,18 @@
+// Ranges of functions over a cell of phases and frequencies, nearly as small as they are.
+#pragma once
+
+#include "checker/model/ball_polynomial.hpp"
+
+namespace veritrack::checker {
+
+/// The least and the largest value, outward; infinite where it is not known.
+struct DoubleRange {
+  double low = 0.0, high = 0.0;
+};
+
+/// Of a function of the place alone.
+DoubleRange range_over_cell(const BallPolynomial& x);
+/// Not below |x|.
+double largest_in(const DoubleRange& range);
+
+}  // namespace veritrack::checker

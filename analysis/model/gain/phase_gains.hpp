@@ -64,6 +64,10 @@ class PhaseGains {
   [[nodiscard]] std::optional<Bounds> closed(const LoopDisturbance& disturbance,
                                              const std::vector<double>& from_start) const;
   [[nodiscard]] double error_of(const Bounds& bounds) const;
+  /// Deviations of states, at most, in the basis.
+  [[nodiscard]] std::vector<double> in_basis(const std::vector<double>& start) const;
+  [[nodiscard]] Bounds in_long_run(const LoopDisturbance& disturbance, Bounds bounds) const;
+  [[nodiscard]] double linear_error(const LoopDisturbance& disturbance) const;
   void add_mean_and_ripple(const Bounds& bounds, PhaseErrors& errors) const;
 
   std::vector<PhasePart> parts_;

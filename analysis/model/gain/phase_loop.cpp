@@ -7,10 +7,9 @@
 #include <span>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
 #include "analysis/model/gain/factor_order.hpp"
 #include "analysis/model/gain/floquet_proposal.hpp"
+#include "analysis/model/gain/upward_parts.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -188,8 +187,7 @@ std::optional<PhaseLoop> PhaseLoop::make(const TrackerModel& tracker, const Trac
 
 bool PhaseLoop::for_each_part(const PartTask& task) const {
   std::atomic<bool> is_done{true};
-  tbb::parallel_for(std::size_t{0}, parts(), [&](std::size_t part) {
-    const rigor::UpwardRounding upward;
+  model::for_each_part(parts(), [&](std::size_t part) {
     if (!is_done) {
       return;
     }
@@ -206,8 +204,7 @@ std::optional<PhaseGains> PhaseLoop::with_slew(double slew) const {
     return std::nullopt;
   }
   std::vector<std::optional<PhasePart>> made(parts());
-  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t part) {
-    const rigor::UpwardRounding upward;
+  model::for_each_part(made.size(), [&](std::size_t part) {
     made[part] = phase_part(tracker_, cells_.front(), gridding_, part);
   });
   std::vector<PhasePart> all;

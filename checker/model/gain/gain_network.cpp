@@ -171,6 +171,7 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
   GainInput slew;
   for (const SteadyState& each : steady) {
     slew.column.push_back({-each.per_frequency, zero});
+    network.turns.push_back(each.turns);
   }
   slew.size = [](const Ball& /*noise*/, const Ball& most) { return most; };
   network.inputs.push_back(std::move(slew));

@@ -139,10 +139,10 @@ bool excludes_zero(const ValuesInDisc& first, const ValuesInDisc& second) {
 /// For no z on the unit circle a polynomial between the two is 0. Their coefficients are real.
 bool no_root_on_unit_circle(const std::vector<Ball>& first, const std::vector<Ball>& second) {
   constexpr long kMostArcs = 100'000;
-  constexpr double kShortest = 0x1p-80;
+  constexpr double kFinest = 0x1p-48;  // of the place
   double from = 0.0;
   double step = 0.25;
-  for (long arc = 0; arc < kMostArcs && step > kShortest; ++arc) {
+  for (long arc = 0; arc < kMostArcs && step > kFinest * from; ++arc) {
     const bool is_last = from + step > std::numbers::pi;
     const Ball start(from);
     const Ball end = is_last ? pi() : Ball(from + step);

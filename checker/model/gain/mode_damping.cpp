@@ -44,13 +44,13 @@ std::vector<Ball> middle_of(const std::vector<Ball>& polynomial) {
 /// polynomial in them is 0 on it.
 std::optional<Ball> change_of_argument(const std::vector<Ball>& polynomial, const DampingCurve& curve) {
   constexpr long kMostArcs = 100'000;
-  constexpr double kShortest = 0x1p-80;
+  constexpr double kFinest = 0x1p-48;  // of the place
   const std::vector<Ball> middle = middle_of(polynomial);
   double from = 0.0;
   double step = 0.25;
   ComplexBall value = values_in_disc(middle, curve.at(zero), zero).centre;
   Ball change;
-  for (long arc = 0; arc < kMostArcs && step > kShortest; ++arc) {
+  for (long arc = 0; arc < kMostArcs && step > kFinest * from; ++arc) {
     const bool is_last = from + step > std::numbers::pi;
     const Ball start(from);
     const Ball end = is_last ? pi() : Ball(from + step);

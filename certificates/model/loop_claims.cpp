@@ -144,9 +144,8 @@ class LoopClaims {
           "state that does not depend on the phase of the signal.";
     } else if (!sets_->gains->radius) {
       claim.reason =
-          "The loop has no one linear recursion: the amplitude changes from sample to sample, something "
-          "turns "
-          "with the signal, or the steady state is where a function has a kink.";
+          "The loop has no one linear recursion: the amplitude is not one number, something turns with the "
+          "signal, or the steady state is where a function has a kink.";
     } else {
       // Its noise bandwidth is not defined.
       claim.verdict = claim.id == "model/noise-bandwidth" ? Verdict::undecided : Verdict::refuted;

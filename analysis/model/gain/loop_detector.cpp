@@ -54,29 +54,29 @@ Row effect_of_phase(const LoopNetwork& network, const std::vector<SteadyValue>& 
 
 LoopDetector detector_of(const LoopNetwork& network, const std::vector<SteadyValue>& steady) {
   std::optional<Row> compared;
-  for (const Row& form : network.forms) {
+  for (const std::size_t angle : network.angle_forms) {
+    const Row& form = network.forms[angle];
     const WeighedTurns turns = weighed_turns(form, steady);
-    const Interval rounding = Interval(kRoundingOfForms) * turns.size;
-    if (rigor::certainly_less_equal(abs(turns.sum), rounding)) {
-      continue;
+    if (turns.size == Interval(0.0)) {
+      continue;  // of states that do not turn with the signal
     }
     Row row;
     row.reserve(form.size());
     for (const Interval& entry : form) {
       row.push_back(entry / turns.sum);
     }
-    const bool is_certain = rigor::certainly_less(rounding, abs(turns.sum));
-    if (!is_certain || (compared && !are_same_forms(*compared, row))) {
+    const bool is_of_phase = rigor::certainly_less(Interval(kRoundingOfForms) * turns.size, abs(turns.sum));
+    if (!is_of_phase || (compared && !are_same_forms(*compared, row))) {
       return {std::nullopt,
-              "more than one value of the step depends on the phase of the samples and is put into a "
-              "function, a product or a limit: the loop has more than one detector"};
+              "the step compares the phase of the samples with more than one angle of its states: the loop "
+              "has more than one detector"};
     }
     if (!compared) {
       compared = row;
     }
   }
   if (!compared) {
-    return {std::nullopt, "no function of the step compares the phase of the samples with the states"};
+    return {std::nullopt, "nothing in the step compares the phase of the samples with the states"};
   }
   return {linear::DetectorLoop{network.a, effect_of_phase(network, steady), *compared}, ""};
 }

@@ -1,4 +1,4 @@
-// The phase detector of a loop, found from its forms (docs/gain-proof.md, section 7).
+// The phase detector of a loop, found from the angles of its step (docs/gain-proof.md, section 7).
 #pragma once
 
 #include <optional>

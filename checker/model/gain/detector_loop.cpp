@@ -166,10 +166,11 @@ bool no_root_on_unit_circle(const std::vector<Ball>& first, const std::vector<Ba
 std::optional<DetectorLoop> detector_loop(const GainNetwork& network) {
   const std::size_t n = network.states();
   std::optional<std::vector<Ball>> compared;
-  for (const GainForm& form : network.forms) {
+  for (const std::size_t angle : network.angle_forms) {
+    const GainForm& form = network.forms[angle];
     const TurnsOfForm turns = turns_of(form.row, network.turns);
-    if (certainly_at_most(abs(turns.sum), kRoundingOfRows * turns.size)) {
-      continue;
+    if (certainly_equal(turns.size, zero)) {
+      continue;  // of states that do not turn with the signal
     }
     if (!certainly_less(kRoundingOfRows * turns.size, abs(turns.sum))) {
       return std::nullopt;

@@ -48,17 +48,20 @@ TEST_CASE("a loop with other forms of the phase, or with none, has no one detect
   const rigor::UpwardRounding upward;
   const test::TwoChannelExample loop(test::two_channel_loop(0.1, 0.004, Detector::sine));
   LoopNetwork network = network_for(loop, 1.0);
-  // Behind the loop filter: the phase, too, and the frequency.
+  // Behind the loop filter, of a clamp: the phase, too, and the frequency. It is no angle.
   network.forms.push_back({Interval(-0.004), Interval(1.0)});
+  CHECK(detector_of(network, kSteadyOfLoop).loop);
+  network.angle_forms.push_back(network.forms.size() - 1);
   CHECK_FALSE(detector_of(network, kSteadyOfLoop).loop);
   CHECK(detector_of(network, kSteadyOfLoop).objection.find("more than one detector") != std::string::npos);
   network.forms.back() = {Interval(-2.0), Interval(0.0)};  // twice the same
   CHECK(detector_of(network, kSteadyOfLoop).loop);
   network.forms.back() = {Interval::from_bounds(-1.0, 1.0), Interval(0.0)};  // perhaps none
   CHECK_FALSE(detector_of(network, kSteadyOfLoop).loop);
-  network.forms = {{Interval(0.0), Interval(1.0)}};
+  network.forms = {{Interval(0.0), Interval(1.0)}};  // of the frequency alone
+  network.angle_forms = {0};
   CHECK_FALSE(detector_of(network, kSteadyOfLoop).loop);
-  CHECK(detector_of(network, kSteadyOfLoop).objection.starts_with("no function"));
+  CHECK(detector_of(network, kSteadyOfLoop).objection.starts_with("nothing in the step"));
 }
 
 }  // namespace veritrack::model

@@ -110,11 +110,18 @@ TEST_CASE("the detector of a loop is found from its forms") {
   CHECK(certainly_positive(noise_bandwidth(*output)));
 
   GainNetwork other = test::motor_loop().network();
-  other.forms.push_back(other.forms[0]);
+  other.forms.push_back(other.forms[other.angle_forms.at(0)]);
+  other.angle_forms.push_back(other.forms.size() - 1);
   CHECK(detector_loop(other));
   other.forms.back().row[1] += Ball(1e-3);
   CHECK_FALSE(detector_loop(other));  // more than one
-  other.forms.clear();
+  other.forms.back().row = {zero, one};
+  CHECK(detector_loop(other));  // of the speed alone
+  other.forms.back().row = {Ball::hull(-one, one), one};
+  CHECK_FALSE(detector_loop(other));
+  other.angle_forms.pop_back();
+  CHECK(detector_loop(other));  // one that is no angle does not count
+  other.angle_forms.clear();
   CHECK_FALSE(detector_loop(other));  // none
 }
 

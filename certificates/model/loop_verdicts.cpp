@@ -41,7 +41,7 @@ std::string largest_proved(double proposed, const Decide& decide) {
     if (!std::isfinite(proposed) || !(proposed > 0.0)) {
       break;
     }
-    const std::string text = rigor::to_decimal(share * proposed, kDigits, rigor::Direction::down);
+    std::string text = rigor::to_decimal(share * proposed, kDigits, rigor::Direction::down);
     const Interval value = rigor::parse_decimal(text);
     if (rigor::certainly_positive(value) && decide(value) == Verdict::proved) {
       return text;

@@ -142,7 +142,7 @@ TEST_CASE("where there is no one linear loop, or no one detector, the reason say
   CHECK(only_required(required_of_loop(bandwidth, gains, "1", "w' = clamp(w + ki*e, -1, 1)")).verdict ==
         Verdict::proved);
   CHECK(reason(required_of_loop(bandwidth, gains, "1",
-                                "w' = w + ki*(q*cos(theta + last) - i*sin(theta + last))\nlast' = e",
+                                "w' = w + ki*(q*cos(theta + last/2) - i*sin(theta + last/2))\nlast' = e",
                                 ", 'last'", ", last = 0"))
             .find("more than one detector") != std::string::npos);
   std::string one_channel = test::kLoopText;

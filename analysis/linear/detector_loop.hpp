@@ -1,5 +1,5 @@
 // A linear recursion that is closed by a phase detector: x+ = A x + b p with the phase p of the samples,
-// which the detector compares with c x. No certificate says it yet.
+// which the detector compares with c x (docs/gain-proof.md, section 7).
 #pragma once
 
 #include <optional>

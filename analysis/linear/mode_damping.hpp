@@ -1,5 +1,5 @@
 // The damping of the modes of a linear recursion, enclosed: its multipliers are in discs about approximate
-// ones. No certificate says it yet.
+// ones (docs/gain-proof.md, section 7).
 #pragma once
 
 #include <vector>

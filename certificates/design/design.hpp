@@ -34,7 +34,7 @@ struct Number {
   /// sentence takes it for one in its own.
   std::string text;
   Position position;
-  bool in_hertz = false;  ///< the text is in Hz, or Hz per second; the numbers above are not
+  bool in_hertz = false;  ///< the text is in Hz, Hz per second or seconds; the numbers above are not
 };
 
 /// True only when both are certainly the same real number: the same decimal, or the same double exactly.

@@ -30,10 +30,10 @@ struct Measured {
   std::optional<OtherUnit> unit = std::nullopt;
 };
 
-Interval sample_rate(const TomlValue& value) {
+Interval sample_rate(const TomlValue& value, std::string_view unit) {
   const std::optional<TomlValue> rate = value.elsewhere("assume", "sample_rate", kSampleRate);
   if (!rate) {
-    value.refuse("in Hz, and [assume] has no sample_rate");
+    value.refuse(fmt::format("in {}, and [assume] has no sample_rate", unit));
   }
   return rate->real(keys::positive).tight;
 }
@@ -46,7 +46,10 @@ Measured measured(const TomlValue& value, std::string_view unit) {
   if (!fields) {
     value.refuse("a table with other keys");
   }
-  const Interval rate = sample_rate(value);
+  if (unit == "seconds") {
+    return {fields->front(), OtherUnit{" seconds", "samples", sample_rate(value, unit)}};
+  }
+  const Interval rate = sample_rate(value, "Hz");
   const Interval turn = Interval(2.0) * rigor::pi() / rate;
   const bool is_slew = unit == "hz_per_second";
   return {fields->front(),
@@ -97,6 +100,11 @@ std::array<Number, 2> read_band(const TomlValue& value, RealPredicate is_allowed
 
 Number read_slew(const TomlValue& value, RealPredicate is_allowed) {
   const Measured inside = measured(value, "hz_per_second");
+  return read(inside.value, inside.unit, is_allowed);
+}
+
+Number read_time(const TomlValue& value, RealPredicate is_allowed) {
+  const Measured inside = measured(value, "seconds");
   return read(inside.value, inside.unit, is_allowed);
 }
 

@@ -1,4 +1,4 @@
-// Frequencies of a design file in rad/sample, or with a sample rate in Hz.
+// Frequencies of a design file in rad/sample, or with a sample rate in Hz; times in samples or seconds.
 #pragma once
 
 #include <array>
@@ -21,6 +21,9 @@ inline constexpr std::string_view kPositiveSlew =
 inline constexpr std::string_view kNotNegativeSlew =
     "a number, 0 or more, in rad/sample per sample, or { hz_per_second = a number } with sample_rate in "
     "[assume]";
+/// The allowed values of a time.
+inline constexpr std::string_view kPositiveTime =
+    "a number above 0, in samples, or { seconds = a number } with sample_rate in [assume]";
 
 // Each reads x, in rad/sample, or { hz = x }, which is 2 pi x/sample_rate rad/sample: an enclosure, whose
 // `text` is "x Hz". `is_allowed` receives rad/sample. Throws InputError, for Hz without a sample rate as
@@ -31,6 +34,8 @@ inline constexpr std::string_view kNotNegativeSlew =
 [[nodiscard]] std::array<Number, 2> read_band(const TomlValue& value, RealPredicate is_allowed);
 /// x in rad/sample per sample, or { hz_per_second = x }: 2 pi x/sample_rate^2.
 [[nodiscard]] Number read_slew(const TomlValue& value, RealPredicate is_allowed);
+/// x in samples, or { seconds = x }: x sample_rate.
+[[nodiscard]] Number read_time(const TomlValue& value, RealPredicate is_allowed);
 /// Whether the value is one number, of either unit.
 [[nodiscard]] bool is_one_frequency(const TomlValue& value);
 

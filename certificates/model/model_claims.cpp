@@ -10,6 +10,7 @@
 #include "analysis/model/set/amplitude_parts.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/band_part.hpp"
+#include "certificates/model/loop_claims.hpp"
 #include "certificates/model/model_limits.hpp"
 #include "certificates/model/model_lock.hpp"
 #include "certificates/model/model_sets.hpp"
@@ -183,6 +184,7 @@ class ModelClaims {
       decide(claim, has_bias(), settled_set().ripple, *number, "It varies by at most {} rad/sample",
              objection_of(settled_set(), is_met), true);
     }
+    add_loop_claims(*certificate_);
     conclude_requirements(*certificate_);
   }
 

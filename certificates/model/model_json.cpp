@@ -162,6 +162,10 @@ Json model_design_json(const Design& design) {
   add_number(required, "captured_within", require.captured_within);
   add_number(required, "bias_below", require.bias_below);
   add_number(required, "ripple_below", require.ripple_below);
+  add_number(required, "damping_at_least", require.damping_at_least);
+  add_number(required, "settles_like", require.settles_like);
+  add_number(required, "noise_bandwidth_below", require.noise_bandwidth_below);
+  add_number(required, "gain_margin_at_least", require.gain_margin_at_least);
   Json recursion{{"samples", texts_json(model.samples)},
                  {"parameters", named_json(model.parameters)},
                  {"angles", texts_json(model.angles)},

@@ -271,6 +271,18 @@ void probability_of_losing_lock(const TomlValue& value, ModelRequire& target) {
     return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0));
   });
 }
+/// 10^(200/20) is a gain that no margin needs to exceed, and far from overflow.
+bool is_gain_margin(const Interval& x) {
+  constexpr double kMostDecibels = 200.0;
+  return rigor::certainly_positive(x) && rigor::certainly_less_equal(x, Interval(kMostDecibels));
+}
+bool is_damping(const Interval& x) {
+  return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0));
+}
+template <auto member>
+void time_in_samples(const TomlValue& value, Owner<member>& target) {
+  target.*member = read_time(value, positive);
+}
 constexpr std::array kModelRequireKeys{
     Key<ModelRequire>{"frequency_error_below", kPositiveFrequency,
                       error_of_sets<&Requirements::frequency_error_below>, kOptional, kLessFrequency},
@@ -292,6 +304,14 @@ constexpr std::array kModelRequireKeys{
                       kOptional, kLessFrequency},
     Key<ModelRequire>{"ripple_below", kPositiveFrequency, in_radians<&ModelRequire::ripple_below, positive>,
                       kOptional, kLessFrequency},
+    Key<ModelRequire>{"damping_at_least", "a number above 0 and below 1",
+                      real<&ModelRequire::damping_at_least, is_damping>, kOptional, kMore},
+    Key<ModelRequire>{"settles_like", kPositiveTime, time_in_samples<&ModelRequire::settles_like>, kOptional,
+                      kLessSamples},
+    Key<ModelRequire>{"noise_bandwidth_below", kPositiveFrequency,
+                      in_radians<&ModelRequire::noise_bandwidth_below, positive>, kOptional, kLessFrequency},
+    Key<ModelRequire>{"gain_margin_at_least", "a number above 0 and at most 200, in dB",
+                      real<&ModelRequire::gain_margin_at_least, is_gain_margin>, kOptional, kMore},
 };
 
 std::vector<BoundTable> bind_model_tables(std::any& tables) {

@@ -109,6 +109,9 @@ std::string FrequencyUnits::sampled() const {
 std::string frequency_words(const Number& number) {
   return number.in_hertz ? number.text : number.text + " rad/sample";
 }
+std::string time_words(const Number& number) {
+  return number.in_hertz ? number.text : number.text + " samples";
+}
 std::string slew_words(const Number& number) {
   return number.in_hertz ? number.text : number.text + " rad/sample per sample";
 }

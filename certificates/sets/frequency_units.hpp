@@ -55,6 +55,8 @@ class FrequencyUnits {
 [[nodiscard]] std::string frequency_words(const Number& number);
 /// A slew likewise: "200 Hz per second" or "0.001 rad/sample per sample".
 [[nodiscard]] std::string slew_words(const Number& number);
+/// A time likewise: "0.01 seconds" or "120 samples".
+[[nodiscard]] std::string time_words(const Number& number);
 
 /// "[lower, upper]" with `digits` significant digits, rounded outward; "unknown" unless finite.
 [[nodiscard]] std::string outward(const rigor::Interval& range, int digits = 4);

@@ -20,11 +20,12 @@ double outward(const Ball& end, arf_rnd_t direction) {
 
 constexpr std::string_view kHertz = " Hz";
 constexpr std::string_view kHertzPerSecond = " Hz per second";
+constexpr std::string_view kSeconds = " seconds";
 
-/// A unit of time in its inverse powers.
+/// A unit of time in its powers.
 struct TimeUnit {
   std::string_view suffix;  ///< of the text
-  int power;                ///< of the sample rate
+  int power;                ///< of the second
 };
 
 Ball read_in_unit(const Tree& number, const Tree& assume, const TimeUnit& unit, const std::string& name,
@@ -34,10 +35,10 @@ Ball read_in_unit(const Tree& number, const Tree& assume, const TimeUnit& unit, 
     return read_not_negative(number, name, objections);
   }
   const Ball rate = read_positive(assume.at("sample_rate"), "sample_rate", objections);
-  Ball value = two * pi() * from_decimal(text.substr(0, text.size() - unit.suffix.size())) / rate;
-  if (unit.power == 2) {
-    value = value / rate;
-  }
+  const Ball decimal = from_decimal(text.substr(0, text.size() - unit.suffix.size()));
+  const Ball value = unit.power == 1    ? decimal * rate
+                     : unit.power == -1 ? two * pi() * decimal / rate
+                                        : two * pi() * decimal / rate / rate;
   const Ball low = low_of(number);
   const Ball high = high_of(number);
   constexpr double kCloseness = 0x1p-44;
@@ -95,16 +96,21 @@ Ball read_not_negative(const Tree& number, const std::string& name, Objections& 
 }
 
 Ball read_frequency(const Tree& number, const Tree& assume, const std::string& name, Objections& objections) {
-  return read_in_unit(number, assume, {kHertz, 1}, name, objections);
+  return read_in_unit(number, assume, {kHertz, -1}, name, objections);
 }
 
 Ball read_slew(const Tree& number, const Tree& assume, Objections& objections) {
-  return read_in_unit(number, assume, {kHertzPerSecond, 2}, "slew", objections);
+  return read_in_unit(number, assume, {kHertzPerSecond, -2}, "slew", objections);
+}
+
+Ball read_time(const Tree& number, const Tree& assume, const std::string& name, Objections& objections) {
+  return read_in_unit(number, assume, {kSeconds, 1}, name, objections);
 }
 
 std::string words_of(const Tree& number, const std::string& unit) {
   const std::string& text = text_of(number);
-  return text.ends_with(kHertz) || text.ends_with(kHertzPerSecond) ? text : text + unit;
+  const bool has_unit = text.ends_with(kHertz) || text.ends_with(kHertzPerSecond) || text.ends_with(kSeconds);
+  return has_unit ? text : text + unit;
 }
 
 Band read_band(const Tree& assume, Objections& objections) {

@@ -22,6 +22,8 @@ Ball read_not_negative(const Tree& number, const std::string& name, Objections& 
 Ball read_frequency(const Tree& number, const Tree& assume, const std::string& name, Objections& objections);
 /// Its change, in rad/sample per sample or as "x Hz per second", 2 pi x/sample_rate^2.
 Ball read_slew(const Tree& number, const Tree& assume, Objections& objections);
+/// A time, in samples as it is written, or as "x seconds", which is x sample_rate.
+Ball read_time(const Tree& number, const Tree& assume, const std::string& name, Objections& objections);
 /// As in sentences: the text with the unit that it names, or else with this one.
 std::string words_of(const Tree& number, const std::string& unit);
 

@@ -150,7 +150,7 @@ class FileSays {
             [&](const std::string& name, const toml::node& member) { leaf(path + "." + name, member); });
   }
 
-  /// Numbers that may be in Hz are given with their unit.
+  /// Numbers that may be in Hz or seconds are given with their unit.
   void requirements(const toml::node& table) {
     each_of("require", table, [&](const std::string& name, const toml::node& value) {
       const std::string path = "require." + name;
@@ -158,10 +158,13 @@ class FileSays {
       const bool has_unit = braces != nullptr && braces->size() == 1;
       const toml::node* hertz = has_unit ? braces->get("hz") : nullptr;
       const toml::node* slew = has_unit ? braces->get("hz_per_second") : nullptr;
+      const toml::node* seconds = has_unit ? braces->get("seconds") : nullptr;
       if (hertz != nullptr && hertz->is_number()) {
         put(path, file_->text(*hertz) + " Hz");
       } else if (slew != nullptr && slew->is_number()) {
         put(path, file_->text(*slew) + " Hz per second");
+      } else if (seconds != nullptr && seconds->is_number()) {
+        put(path, file_->text(*seconds) + " seconds");
       } else {
         leaf(path, value);
       }

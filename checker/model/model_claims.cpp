@@ -5,6 +5,7 @@
 
 #include "checker/document/design_number.hpp"
 #include "checker/model/false_lock.hpp"
+#include "checker/model/gain/loop_verdicts.hpp"
 #include "checker/model/gaussian_drift.hpp"
 #include "checker/model/long_run.hpp"
 #include "checker/model/start_capture.hpp"
@@ -490,8 +491,8 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
                        id == kSlewLimit || id == kSteadyState || id == kLock || id == kLowestSnr;
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
-  if (!is_told && !is_asked) {
-    objections.emplace_back("[require] does not ask for this");
+  if ((!is_told && !is_asked) || is_about_linear_loop(id)) {
+    objections.emplace_back(is_asked ? "tubes do not decide this" : "[require] does not ask for this");
     return {};
   }
   const bool is_lock = id == kLock || id == kLowestSnr;

@@ -154,15 +154,18 @@ RequiredNumber required_number(const std::string& name, const Tree& number, cons
   if (name == "largest_slew_at_least") {
     return {words_of(number, " rad/sample per sample"), read_slew(number, assume, objections)};
   }
+  if (name == "settles_like") {
+    return {words_of(number, " samples"), read_time(number, assume, name, objections)};
+  }
   const bool is_frequency = name.find("frequency_error") != std::string::npos || name == "settled_below" ||
-                            name == "bias_below" || name == "ripple_below";
+                            name == "bias_below" || name == "ripple_below" || name == "noise_bandwidth_below";
   return is_frequency ? RequiredNumber{words_of(number, " rad/sample"),
                                        read_frequency(number, assume, name, objections)}
                       : RequiredNumber{text_of(number), read_number(number, objections)};
 }
 
 void read_requirements(const Tree& require, const Tree& assume, ModelDesign& design, Objections& objections) {
-  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 10> keys{
+  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 14> keys{
       {{"frequency_error_below", &design.frequency_error_below},
        {"settles_within", &design.settles_within},
        {"settled_below", &design.settled_below},
@@ -172,7 +175,11 @@ void read_requirements(const Tree& require, const Tree& assume, ModelDesign& des
        {"frequency_error_radius_at_least", &design.radius},
        {"probability_of_losing_lock_below", &design.losing_lock},
        {"bias_below", &design.bias},
-       {"ripple_below", &design.ripple}}};
+       {"ripple_below", &design.ripple},
+       {"damping_at_least", &design.damping},
+       {"settles_like", &design.settles_like},
+       {"noise_bandwidth_below", &design.noise_bandwidth},
+       {"gain_margin_at_least", &design.gain_margin}}};
   for (const auto& member : require.members()) {
     const std::string& name = member.first;
     const auto* const key =

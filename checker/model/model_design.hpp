@@ -37,6 +37,7 @@ struct ModelDesign {
   std::vector<Ball> start;         ///< the state at the start; empty: not given
   std::optional<RequiredNumber> frequency_error_below, settles_within, settled_below, largest_noise,
       largest_slew, radius, bias, ripple, losing_lock, captured_within;
+  std::optional<RequiredNumber> damping, settles_like, noise_bandwidth, gain_margin;  ///< of the linear loop
 
   [[nodiscard]] bool is_noisy() const { return !certainly_equal(noise, zero); }
   [[nodiscard]] bool moves() const { return !certainly_equal(slew, zero); }

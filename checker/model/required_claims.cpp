@@ -80,6 +80,20 @@ std::string RequiredClaims::short_text(const std::string& id) const {
     return "the probability of losing lock" + exceeding + (exceeding.empty() ? "" : ",") + " is below " +
            design_->losing_lock->text + " " + words_.stretch_of_samples();
   }
+  if (id == kDamping) {
+    return "every mode of the linear loop has a damping ratio of at least " + design_->damping->text;
+  }
+  if (id == kTimeConstant) {
+    return "the slowest mode of the linear loop shrinks by a factor of e in at most " +
+           design_->settles_like->text;
+  }
+  if (id == kNoiseBandwidth) {
+    return "the noise bandwidth of the linear loop is below " + design_->noise_bandwidth->text;
+  }
+  if (id == kGainMargin) {
+    return "the linear loop stays stable while the gain of its detector grows by up to " +
+           design_->gain_margin->text + " dB";
+  }
   if (id == kBias) {
     return "the mean frequency error is at most " + design_->bias->text;
   }
@@ -102,6 +116,10 @@ std::vector<Requirement> RequiredClaims::all() const {
   require(design_->losing_lock.has_value(), kLosingLock);
   require(design_->bias.has_value(), kBias);
   require(design_->ripple.has_value(), kRipple);
+  require(design_->damping.has_value(), kDamping);
+  require(design_->settles_like.has_value(), kTimeConstant);
+  require(design_->noise_bandwidth.has_value(), kNoiseBandwidth);
+  require(design_->gain_margin.has_value(), kGainMargin);
   return asked;
 }
 

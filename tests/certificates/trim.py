@@ -61,6 +61,8 @@ model-gains       all claims that gains decide
 model-gains-unstable  a loop that is REFUTED
 From tests/certificates/model-gains-one-channel.toml, as it is:
 model-gains-one-channel  a loop whose detector also sees twice the frequency
+From tests/certificates/model-gains-linear.toml, as it is:
+model-gains-linear  what [require] asks of a linear loop
 From tests/certificates/model-gains-limits.toml, model-gains-signs.toml and model-kinks.toml, as they are:
 model-gains-limits  a loop with a clamp that acts and one that does not
 model-gains-signs   a loop whose detector has signs, conditions and absolute values
@@ -495,6 +497,7 @@ KINDS = {
     "model-gains-unstable": lambda certificate: None,
     "model-gains-one-channel": lambda certificate: None,
     "model-gains-limits": lambda certificate: None,
+    "model-gains-linear": lambda certificate: None,
     "model-gains-signs": lambda certificate: None,
     "model-kinks": lambda certificate: None,
     "model-gaussian": model_gaussian,

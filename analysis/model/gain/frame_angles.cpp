@@ -67,7 +67,7 @@ FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int t
   const Interval moved = Interval(2.0 * periods) * half_period;
   angle.constant -= moved;
   angle.is_modular = false;
-  add_limit(frame, add_form(frame, angle), half_period - Interval(rigor::magnitude(base - moved)));
+  add_limit(frame, add_angle_form(frame, angle), half_period - Interval(rigor::magnitude(base - moved)));
   return angle;
 }
 

@@ -154,6 +154,11 @@ int FrameRules::add_input(Frame& frame, FrameInput input) {
   return frame.inputs_.back().first;
 }
 
+int FrameRules::add_angle_form(Frame& frame, const FrameLine& line) {
+  frame.angle_forms_.push_back(add_form(frame, line));
+  return frame.angle_forms_.back();
+}
+
 void FrameRules::add_limit(Frame& frame, int form, const Interval& room) {
   if (!rigor::certainly_less(Interval(0.0), room)) {
     throw NoFrame("the steady state is at the border of an operation");
@@ -250,7 +255,7 @@ int FrameRules::ripple(Frame& frame, const Monomial& monomial, const FrameLine& 
 int FrameRules::form_of_phase(Frame& frame, const Monomial& monomial, const FrameLine& phase) {
   const auto found = frame.phase_forms_.find(monomial);
   return found != frame.phase_forms_.end() ? found->second
-                                           : frame.phase_forms_[monomial] = add_form(frame, phase);
+                                           : frame.phase_forms_[monomial] = add_angle_form(frame, phase);
 }
 
 FrameLine FrameRules::line_of_waves(Frame& frame, const Waves& waves) {

@@ -64,6 +64,7 @@ struct FrameRules {
 
   // Remainders and noise (frame_nodes.cpp).
   static int add_form(Frame& frame, const FrameLine& line);
+  static int add_angle_form(Frame& frame, const FrameLine& line);
   static int add_input(Frame& frame, FrameInput input);
   static void add_limit(Frame& frame, int form, const rigor::Interval& room);
   static void rest_at_kink(Frame& frame);

@@ -152,6 +152,8 @@ class Frame {
 
   [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
   [[nodiscard]] const std::vector<FrameLine>& forms() const { return forms_; }
+  /// The forms that are angles of waves, or of which a function took one turn only.
+  [[nodiscard]] const std::vector<int>& angle_forms() const { return angle_forms_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
   [[nodiscard]] const std::vector<FrameRipple>& ripples() const { return ripples_; }
   /// Whether a steady state may be at a kink or a jump: then nothing is linear to first order.
@@ -178,6 +180,7 @@ class Frame {
   int angle_input_ = -1;                                 // of the angle that noise adds, or -1
   std::vector<FrameInput> inputs_;
   std::vector<FrameLine> forms_;
+  std::vector<int> angle_forms_;
   std::vector<FrameLimit> limits_;
   std::vector<FrameRipple> ripples_;
   bool may_rest_at_kink_ = false;

@@ -179,6 +179,7 @@ class Assembly {
     for (const FrameLine& form : frame_.forms()) {
       add_form(form);
     }
+    network_.angle_forms.assign(frame_.angle_forms().begin(), frame_.angle_forms().end());
     network_.may_rest_at_kink = frame_.may_rest_at_kink();
     network_.bias = frequency_.constant + (frequency_.per_frequency - Interval(1.0)) * frame_.band();
     for (const FrameLimit& limit : frame_.limits()) {

@@ -42,6 +42,7 @@ struct LoopNetwork {
   std::vector<NetworkInput> inputs;                    ///< in the same order
   std::vector<linear::Row> forms;                      ///< the last one is the frequency error
   std::vector<std::vector<DirectTerm>> direct;         ///< of the forms
+  std::vector<std::size_t> angle_forms;                ///< the forms that are angles
   std::vector<std::pair<std::size_t, double>> limits;  ///< |form| < room
   rigor::Interval bias;  ///< the frequency error in the steady state, rad/sample
   /// One channel: what turns with the signal adds to each form, and to each state at the start.

@@ -62,6 +62,7 @@ int LinearFrame::principal(int x, const Ball& period) {
   });
   if (is_new) {
     limit(result, -(period * half), period * half);
+    note_angle(result);
   }
   return result;
 }

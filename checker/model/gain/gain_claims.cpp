@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "checker/model/false_lock.hpp"
+#include "checker/model/gain/loop_verdicts.hpp"
 #include "checker/model/gain/stability.hpp"
 
 namespace veritrack::checker {
@@ -56,6 +57,13 @@ bool GainClaims::varies_by_at_most(const Ball& most) const {
   return settled && certainly_at_most(settled->variation(), most);
 }
 
+bool GainClaims::has_one_linear_loop() const {
+  // To first order the linear recursion is the same at every sample, about a steady state of the true
+  // frequency.
+  return network_ != nullptr && network_->has_one_matrix() && !design_->amplitude_varies &&
+         network_->is_at_rest && certainly_less(abs(network_->bias), half_distance_);
+}
+
 std::string GainClaims::assumed_hypotheses() const {
   return words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
          words_.assumed_start_by_steady_state();
@@ -85,6 +93,12 @@ Claim GainClaims::required_claim(const Tree& claim) const {
     found.statement = settled_hypotheses() + ", the frequency error in the long run varies by at most " +
                       design_->ripple->text + " over the phase.";
     found.verdict = proved_if(varies_by_at_most(design_->ripple->value));
+  } else if (is_about_linear_loop(id)) {
+    found.statement = words_.constant_tone() +
+                      ", without noise, to first order about the steady state of the certificate, " +
+                      required_.short_text(id) + ".";
+    found.verdict =
+        has_one_linear_loop() ? linear_loop_verdict(id, *network_, *design_) : Verdict::undecided;
   } else if (id == kLargestNoise) {
     found.statement = words_.constant_tone() + ", " + required_.short_text(id) + ".";
     found.verdict =
@@ -198,10 +212,7 @@ Claim GainClaims::stability(const Tree& claim) const {
   found.is_summary = true;
   found.hypotheses = words_.constant_tone() + ", without noise";
   found.statement = found.hypotheses + ", the steady state of the certificate is stable: to first order, ";
-  // To first order the linear recursion is the same at every sample, about a steady state of the true
-  // frequency.
-  const bool is_constant = network_ != nullptr && network_->has_one_matrix() && !design_->amplitude_varies &&
-                           network_->is_at_rest && certainly_less(abs(network_->bias), half_distance_);
+  const bool is_constant = has_one_linear_loop();
   if (const Tree* growth = claim.find("growth")) {
     const Ball factor = written(claim, "growth");
     found.statement += "no error about it grows by a factor of " + growth->text() + " or more each sample.";

@@ -44,6 +44,9 @@ class GainClaims {
   /// Of the frequency error in the long run, without noise, from the steady state.
   [[nodiscard]] bool mean_is_between(const Ball& low, const Ball& high) const;
   [[nodiscard]] bool varies_by_at_most(const Ball& most) const;
+  /// To first order the linear recursion is the same at every sample, about a steady state of the true
+  /// frequency.
+  [[nodiscard]] bool has_one_linear_loop() const;
   [[nodiscard]] std::string assumed_hypotheses() const;
   [[nodiscard]] std::string settled_hypotheses() const;
 

@@ -158,6 +158,9 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
     network.is_at_rest =
         network.is_at_rest && certainly_less(limit.low, limit.base) && certainly_less(limit.base, limit.high);
   }
+  for (const int angle : frame.angles()) {
+    network.angle_forms.push_back(forms.of(angle));
+  }
   network.is_at_rest = network.is_at_rest && !frame.may_rest_at_kink();
   network.error_form = forms.of(error);
   network.frequency = network.forms[network.error_form].row;
@@ -171,6 +174,7 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
   GainInput slew;
   for (const SteadyState& each : steady) {
     slew.column.push_back({-each.per_frequency, zero});
+    network.turns.push_back(each.turns);
   }
   slew.size = [](const Ball& /*noise*/, const Ball& most) { return most; };
   network.inputs.push_back(std::move(slew));

@@ -63,11 +63,13 @@ struct GainNetwork {
   std::vector<GainInput> inputs;
   std::vector<GainForm> forms;
   std::vector<GainLimit> limits;
-  std::vector<GainRipple> ripples;  ///< at a constant frequency only
-  std::size_t error_form = 0;       ///< h(X_k) - omega_k, less the bias
-  Ball bias;                        ///< over the band
+  std::vector<std::size_t> angle_forms;  ///< the forms that are angles
+  std::vector<GainRipple> ripples;       ///< at a constant frequency only
+  std::size_t error_form = 0;            ///< h(X_k) - omega_k, less the bias
+  Ball bias;                             ///< over the band
   /// What is listed is a steady state up to rounding, and no limit is crossed there.
   bool is_at_rest = true;
+  std::vector<long> turns;      ///< of the states in the steady state, of the phase
   std::vector<Ball> frequency;  ///< the row of the frequency
   Ball least_amplitude;         ///< noise must be below it
 

@@ -115,6 +115,9 @@ class LinearFrame {
   [[nodiscard]] bool has_one_channel() const { return channels_ == 1; }
   [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
+  /// The values that are angles of waves, or of which a function took one turn only.
+  [[nodiscard]] const std::vector<int>& angles() const { return angles_; }
+  void note_angle(int x) { angles_.push_back(x); }
   /// Whether a steady state may be at a kink or a jump: then nothing is linear to first order.
   [[nodiscard]] bool may_rest_at_kink() const { return may_rest_at_kink_; }
 
@@ -136,6 +139,7 @@ class LinearFrame {
   std::map<std::string, std::size_t> input_names_;
   std::vector<FrameInput> inputs_;
   std::vector<FrameLimit> limits_;
+  std::vector<int> angles_;
   bool may_rest_at_kink_ = false;
 };
 

@@ -1,34 +1,8 @@
 #include "checker/model/gain/stability.hpp"
 
-#include <arb_mat.h>
-#include <arb_poly.h>
-
 namespace veritrack::checker {
 
 namespace {
-
-/// det(z - A), coefficients from the constant one on.
-std::vector<Ball> characteristic_polynomial(const BallRows& matrix) {
-  const auto n = static_cast<slong>(matrix.size());
-  arb_mat_t entries;
-  arb_poly_t polynomial;
-  arb_mat_init(entries, n, n);
-  arb_poly_init(polynomial);
-  for (slong i = 0; i < n; ++i) {
-    for (slong j = 0; j < n; ++j) {
-      arb_set(arb_mat_entry(entries, i, j),
-              matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].raw());
-    }
-  }
-  arb_mat_charpoly(polynomial, entries, precision());
-  std::vector<Ball> coefficients(matrix.size() + 1);
-  for (slong i = 0; i <= n; ++i) {
-    arb_poly_get_coeff_arb(coefficients[static_cast<std::size_t>(i)].raw(), polynomial, i);
-  }
-  arb_mat_clear(entries);
-  arb_poly_clear(polynomial);
-  return coefficients;
-}
 
 enum class Roots { all_inside, one_outside, unknown };
 

@@ -2,13 +2,9 @@
 // Cohn (docs/gain-proof.md, section 7).
 #pragma once
 
-#include <vector>
-
-#include "checker/numbers/ball.hpp"
+#include "checker/model/gain/characteristic_polynomial.hpp"
 
 namespace veritrack::checker {
-
-using BallRows = std::vector<std::vector<Ball>>;
 
 /// All eigenvalues of every matrix in the balls are smaller than `radius` in size.
 bool all_eigenvalues_within(const BallRows& matrix, const Ball& radius);

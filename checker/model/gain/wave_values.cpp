@@ -171,6 +171,7 @@ void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ba
     add_deviations(sum, unit, one);
   }
   if (!phase.deviations.empty()) {
+    frame.note_angle(angle);
     const Ball of_cosine = abs(amplitude * cos(b));
     const Ball of_sine = abs(amplitude * sin(b));
     add_remainder(frame, sum, {"real part of " + name_of(wave), angle, of_cosine, of_sine}, real);

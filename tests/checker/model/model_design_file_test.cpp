@@ -96,6 +96,7 @@ TEST_CASE("another file is found out") {
   CHECK(objections("amplitude = 1", "start_within = { w = 0.1 }") == 1);
   CHECK(objections("amplitude = 1", "amplitude = true") >= 1);
   CHECK(objections("[assume]", "[require]\nbias_below = 1\n[assume]") == 1);
+  CHECK(objections("[assume]", "[require]\nsettles_like = { seconds = 1 }\n[assume]") == 1);
   CHECK(objections("[assume]", "[simulate]\nsamples = 1\n[assume]") == 0);
   CHECK(objections("[assume]", "[another]\nsamples = 1\n[assume]") == 1);
   // Where a simulation begins is no part of what is proved.

@@ -1,9 +1,9 @@
 // The order of factors, and gates.
+#include "checker/model/gain/phase_graph.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "checker/model/gain/phase_graph.hpp"
 
 namespace veritrack::checker {
 

@@ -2,17 +2,15 @@
 // (docs/gain-proof.md, section 10).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "checker/model/gain/phase_kernels.hpp"
 #include "checker/model/gain/phase_part.hpp"
+#include "checker/model/gain/size_vectors.hpp"
 
 namespace veritrack::checker {
-
-/// At least given + M T for all of these, or nothing.
-std::optional<std::vector<double>> closed_together(const std::vector<const Table*>& defects,
-                                                   const std::vector<std::vector<double>>& given);
 
 class PhaseGroup {
  public:
@@ -44,7 +42,12 @@ class PhaseGroup {
   [[nodiscard]] std::vector<double> components(std::size_t part, const std::vector<double>& start) const;
 
  private:
-  struct Widened;
+  /// A part with what the move of the frequency after its step multiplies everything by.
+  struct Widened {
+    Table of_matrix;  ///< by how much more the matrix may differ
+    std::vector<std::array<std::vector<double>, 2>> column_errors;
+    std::vector<double> residual;
+  };
   [[nodiscard]] std::optional<Widened> widened(const PhasePart& part) const;
   [[nodiscard]] std::vector<PhaseStage> stages(const std::vector<Widened>& all, std::size_t part) const;
   [[nodiscard]] bool close(const std::vector<Widened>& all);

@@ -85,7 +85,7 @@ void add_cell(Chords& chords, const PolynomialRow& row) {
 }
 
 void raise(double& most, const BallPolynomial& value) {
-  most = std::max(most, largest_in(range_over_cell(value)));
+  most = std::max(most, largest_over_cell(value));
 }
 
 void raise(Table& most, const PolynomialMatrix& matrix) {

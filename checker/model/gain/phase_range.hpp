@@ -14,5 +14,8 @@ struct DoubleRange {
 DoubleRange range_over_cell(const BallPolynomial& x);
 /// Not below |x|.
 double largest_in(const DoubleRange& range);
+inline double largest_over_cell(const BallPolynomial& x) {
+  return largest_in(range_over_cell(x));
+}
 
 }  // namespace veritrack::checker

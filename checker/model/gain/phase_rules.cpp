@@ -66,8 +66,11 @@ Ball curvature(PhaseOperation operation, const Ball& x) {
       const Ball rest = one - square(abs(x).upper());
       return certainly_positive(rest) ? abs(x) / (rest * sqrt(rest)) : Ball::everything();
     }
-    case PhaseOperation::arctangent:
-      return two * x / square(one + square(x));
+    case PhaseOperation::arctangent: {
+      const Ball value = two * x / square(one + square(x));
+      const Ball everywhere(0.65);  // 3^(3/2)/8 at 3^(-1/2)
+      return certainly_less(abs(value), everywhere) ? value : everywhere;
+    }
     default:
       return Ball::everything();
   }

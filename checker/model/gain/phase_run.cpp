@@ -10,11 +10,6 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Not below the size of any value.
-double supremum(const BallPolynomial& x) {
-  return largest_in(range_over_cell(x));
-}
-
 /// A value as its base and slopes, by variable.
 struct SlopedValue {
   BallPolynomial base;
@@ -98,7 +93,7 @@ class StepRun {
     }
     for (std::size_t r = 0; r < structure_->rules.size(); ++r) {
       if (structure_->rules[r].input == input) {
-        run_.to_input[r] = supremum(value.slope(structure_->remainder(r)));
+        run_.to_input[r] = largest_over_cell(value.slope(structure_->remainder(r)));
         value.slopes.erase(structure_->remainder(r));
       }
     }
@@ -114,7 +109,7 @@ class StepRun {
       }
       for (const auto& [variable, slope] : values_[node].slopes) {
         if (variable >= structure_->states) {
-          run_.direct.back().emplace_back(variable, supremum(slope));
+          run_.direct.back().emplace_back(variable, largest_over_cell(slope));
         }
       }
     }
@@ -151,29 +146,6 @@ PolynomialMatrix product_of(const PolynomialMatrix& x, const PolynomialMatrix& y
   return result;
 }
 
-/// The row from `first` on whose entry in that column is certainly farthest from 0, as a share of the row:
-/// states are of different sizes.
-std::size_t best_pivot(const PolynomialMatrix& matrix, std::size_t first) {
-  std::size_t best = first;
-  double farthest = 0.0;
-  for (std::size_t row = first; row < matrix.size(); ++row) {
-    double size = 0.0;
-    for (std::size_t j = first; j < matrix.size(); ++j) {
-      size = std::max(size, supremum(matrix[row][j]));
-    }
-    const DoubleRange entry = range_over_cell(matrix[row][first]);
-    const double least = std::max(entry.low, -entry.high);
-    if (least > 0.0 && least / size > farthest) {
-      farthest = least / size;
-      best = row;
-    }
-  }
-  if (!(farthest > 0.0)) {
-    throw NotCovered("the basis is not certainly invertible");
-  }
-  return best;
-}
-
 /// The variables of the step of which new components are functions.
 std::vector<std::size_t> variables_of_step(const PhaseStructure& structure) {
   std::vector<std::size_t> variables;
@@ -195,32 +167,6 @@ PolynomialMatrix square_of(const std::vector<BallPolynomial>& entries, std::size
 }
 
 }  // namespace
-
-PolynomialMatrix inverse_of(PolynomialMatrix matrix) {
-  const std::size_t n = matrix.size();
-  PolynomialMatrix result(n, PolynomialRow(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    result[i][i] = BallPolynomial(1.0);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t pivot = best_pivot(matrix, i);
-    std::swap(matrix[i], matrix[pivot]);
-    std::swap(result[i], result[pivot]);
-    const BallPolynomial inverse = reciprocal(matrix[i][i]);
-    for (std::size_t j = 0; j < n; ++j) {
-      matrix[i][j] = inverse * matrix[i][j];
-      result[i][j] = inverse * result[i][j];
-    }
-    for (std::size_t row = 0; row < n; ++row) {
-      const BallPolynomial factor = matrix[row][i];
-      for (std::size_t j = 0; j < n && row != i; ++j) {
-        matrix[row][j] -= factor * matrix[i][j];
-        result[row][j] -= factor * result[i][j];
-      }
-    }
-  }
-  return result;
-}
 
 PhaseRun run_over(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
                   const TubePart& part) {

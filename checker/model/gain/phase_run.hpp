@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "checker/model/gain/phase_inverse.hpp"
 #include "checker/model/gain/phase_rules.hpp"
 #include "checker/model/gain/phase_structure.hpp"
 #include "checker/model/tube_step.hpp"
@@ -19,10 +20,6 @@ struct PhaseCell {
   std::size_t parts = 1;  ///< of the frequencies
   std::vector<std::vector<double>> matrix;  ///< coefficients of the powers of z, by entry
 };
-
-/// By entry.
-using PolynomialRow = std::vector<BallPolynomial>;
-using PolynomialMatrix = std::vector<PolynomialRow>;
 
 /// What the step is over a cell of phases and frequencies: functions of the place in it.
 struct PhaseRun {
@@ -42,8 +39,5 @@ struct PhaseRun {
 /// Throws NotCovered where something is not certainly defined.
 PhaseRun run_over(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
                   const TubePart& part);
-
-/// By Gaussian elimination. Throws NotCovered where no pivot certainly differs from 0.
-PolynomialMatrix inverse_of(PolynomialMatrix matrix);
 
 }  // namespace veritrack::checker

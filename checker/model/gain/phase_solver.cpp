@@ -1,9 +1,10 @@
 // Bounds that contain their own right side.
+#include "checker/model/gain/phase_bounds.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "checker/model/gain/phase_bounds.hpp"
 #include "checker/model/gain/phase_lags.hpp"
 
 namespace veritrack::checker {
@@ -73,10 +74,8 @@ PhaseSolver::PhaseSolver(const PhaseLoopEvidence& evidence, const PhaseGroup& gr
   } else {
     late_starts_ = Table(group.size(), std::vector<double>(start.size(), 0.0));
   }
-  const std::vector<double> size_of_noise(group.phases(), noise);
-  const std::vector<double> size_of_slew(group.phases(), group.slew());
-  const PhaseSizes of_noise(size_of_noise);
-  const PhaseSizes of_slew(size_of_slew);
+  const PhaseSizes of_noise(std::vector<double>(group.phases(), noise));
+  const PhaseSizes of_slew(std::vector<double>(group.phases(), group.slew()));
   for (std::size_t part = 0; part < group.size(); ++part) {
     given_.emplace_back();
     given_rest_.emplace_back();

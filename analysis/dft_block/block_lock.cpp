@@ -63,9 +63,10 @@ std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates
     return std::nullopt;
   }
   const double between = largest + share * (1.0 - largest);
-  const double first = centre(3);
-  const double second = centre(6);
-  const double third = centre(8);
+  // Opaque, or the compiler may compute the products below before the mode is set: clang 14 does.
+  const double first = rigor::detail::opaque(centre(3));
+  const double second = rigor::detail::opaque(centre(6));
+  const double third = rigor::detail::opaque(centre(8));
   rigor::Vector<kStates> size;
   size << std::sqrt(first), std::sqrt(second), std::sqrt(third), first, std::sqrt(first * second),
       std::sqrt(first * third), second, std::sqrt(second * third), third;

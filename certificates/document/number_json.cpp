@@ -1,9 +1,21 @@
 #include "certificates/document/number_json.hpp"
 
+#include <string>
+
 namespace veritrack::certificates {
 
+namespace {
+
+/// Without the sign of a zero: as a bound -0 is 0, and which of both comes out depends on how an interval is
+/// kept, which must not show in a certificate.
+std::string hexadecimal_bound(double bound) {
+  return rigor::to_hexadecimal(bound == 0.0 ? 0.0 : bound);
+}
+
+}  // namespace
+
 Json enclosure_json(const rigor::Interval& value) {
-  return {{"lo", rigor::to_hexadecimal(value.lower())}, {"hi", rigor::to_hexadecimal(value.upper())}};
+  return {{"lo", hexadecimal_bound(value.lower())}, {"hi", hexadecimal_bound(value.upper())}};
 }
 
 Json readable_enclosure_json(const rigor::Interval& value) {

@@ -51,7 +51,7 @@ Eigen::VectorXd with_one_more(const Eigen::VectorXd& point, const ShapeSearch& p
   constexpr double kStep = 1.0;
   Eigen::VectorXd candidate(point.size() + 1);
   candidate << point, kFirst;
-  Eigen::VectorXd best = candidate;
+  double best_last = kFirst;  // not a second vector: g++ 12 takes its assignment for a use after free
   double most = kWorthless;
   for (double last = kFirst; last <= kLast; last += kStep) {
     candidate[point.size()] = last;
@@ -61,10 +61,11 @@ Eigen::VectorXd with_one_more(const Eigen::VectorXd& point, const ShapeSearch& p
                              : proposer.largest_radius(shape) / shape.metric.frequency;
     if (value > most) {
       most = value;
-      best = candidate;
+      best_last = last;
     }
   }
-  return best;
+  candidate[point.size()] = best_last;
+  return candidate;
 }
 
 /// The points found from the start of the space and, when there is noise or slew, from the best point without

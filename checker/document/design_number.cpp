@@ -36,9 +36,9 @@ Ball read_in_unit(const Tree& number, const Tree& assume, const TimeUnit& unit, 
   }
   const Ball rate = read_positive(assume.at("sample_rate"), "sample_rate", objections);
   const Ball decimal = from_decimal(text.substr(0, text.size() - unit.suffix.size()));
-  const Ball value = unit.power == 1    ? decimal * rate
-                     : unit.power == -1 ? two * pi() * decimal / rate
-                                        : two * pi() * decimal / rate / rate;
+  Ball value = unit.power == 1    ? decimal * rate
+               : unit.power == -1 ? two * pi() * decimal / rate
+                                  : two * pi() * decimal / rate / rate;
   const Ball low = low_of(number);
   const Ball high = high_of(number);
   constexpr double kCloseness = 0x1p-44;

@@ -153,6 +153,7 @@ bool PhaseBounds::is_certain(const Ball& slew) const {
 std::unique_ptr<FrequencyErrors> PhaseBounds::errors(const Ball& noise, const Ball& slew,
                                                      const std::vector<Ball>& start) const {
   std::vector<double> deviations;
+  deviations.reserve(start.size());
   for (const Ball& deviation : start) {
     deviations.push_back(certainly_not_negative(deviation) ? upper(deviation) : HUGE_VAL);
   }

@@ -97,8 +97,7 @@ Claim GainClaims::required_claim(const Tree& claim) const {
     found.statement = words_.constant_tone() +
                       ", without noise, to first order about the steady state of the certificate, " +
                       required_.short_text(id) + ".";
-    found.verdict =
-        has_one_linear_loop() ? linear_loop_verdict(id, *network_, *design_) : Verdict::undecided;
+    found.verdict = has_one_linear_loop() ? linear_loop_verdict(id, *network_, *design_) : Verdict::undecided;
   } else if (id == kLargestNoise) {
     found.statement = words_.constant_tone() + ", " + required_.short_text(id) + ".";
     found.verdict =

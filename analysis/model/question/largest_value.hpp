@@ -1,4 +1,4 @@
-// The largest disturbance that a proof bears.
+// The largest disturbance that a proof tolerates.
 #pragma once
 
 #include <algorithm>

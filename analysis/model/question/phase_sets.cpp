@@ -50,7 +50,7 @@ class PhaseSets {
   /// What is asked of each part at a constant frequency.
   struct OfPart {
     std::optional<PhaseErrors> still, assumed, from_starts, at_noise, at_reach;
-    double noise = 0.0, reach = 0.0, share = 0.0;
+    double noise = 0.0, reach = 0.0;
   };
 
   [[nodiscard]] bool is_lock(const std::optional<PhaseErrors>& errors) const {

@@ -163,7 +163,7 @@ TEST_CASE("A loop of second order in noise that pushes, simulated, stays below i
   CHECK(errors->from(Ball(8000.0)).upper_double() < 1.02 * late);
 }
 
-TEST_CASE("Nothing is bounded for what is not a number, nor beyond a slew that the evidence bears") {
+TEST_CASE("Nothing is bounded for what is not a number, nor beyond a slew that the evidence covers") {
   test::PhaseLoopOfTest loop = test::smoothing_loop();
   const auto bounds = loop.bounds();
   CAPTURE(loop.said());

@@ -16,6 +16,9 @@ struct GroupErrors {
   std::unique_ptr<PhaseSolver> solver;
 };
 
+/// rad/sample. Sentences speak of the steady state: what a curve is off must not show in the frequency.
+constexpr double kMostOfResidual = 0x1p-18;
+
 double size_of(const DoubleRange& range) {
   return largest_in(range);
 }
@@ -146,8 +149,17 @@ const PhaseBounds::Groups& PhaseBounds::groups(double slew) const {
 
 bool PhaseBounds::is_certain(const Ball& slew) const {
   const Groups& all = groups(upper(slew));
-  return !all.empty() &&
-         std::all_of(all.begin(), all.end(), [](const auto& group) { return group->is_certain(); });
+  return !all.empty() && std::all_of(all.begin(), all.end(), [this](const auto& group) {
+    if (!group->is_certain()) {
+      return false;
+    }
+    for (std::size_t part = 0; part < group->size(); ++part) {
+      if (!(group->of_residual(part, evidence_.structure.error_form) <= kMostOfResidual)) {
+        return false;
+      }
+    }
+    return true;
+  });
 }
 
 std::unique_ptr<FrequencyErrors> PhaseBounds::errors(const Ball& noise, const Ball& slew,

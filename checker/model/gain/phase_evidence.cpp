@@ -167,7 +167,8 @@ std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedMo
     if (bounds->is_certain(design.slew)) {
       return bounds;
     }
-    objections.emplace_back("the loop is not stable, or the horizon is too short");
+    objections.emplace_back(
+        "the loop is not stable, the horizon is too short, or the curve is no steady state");
   } catch (const NotCovered& reason) {
     objections.emplace_back(reason.what());
   }

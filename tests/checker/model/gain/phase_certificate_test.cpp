@@ -2,6 +2,7 @@
 // was changed for the better is.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -161,6 +162,19 @@ TEST_CASE("a design that gains with phases are not for is refused") {
   }));
   CHECK(is_refused([](Json& c) { c["design"]["model"]["signal"] = {"A*cos(0.5*phi)"}; }));
   CHECK(is_refused([](Json& c) { c["design"]["model"]["step"] = "w' = 0.9*w + 0.1*max(y*y, 0)\n"; }));
+}
+
+TEST_CASE("a curve that is no steady state is refused, whatever the claims say") {
+  Json certificate = smoothing_certificate();
+  certificate["claims"].erase(1);
+  certificate["design"]["model"]["signal"] = {"A*cos(phi) + 0.0001*cos(3*phi)"};
+  certificate["claims"][0]["frequency_error"] = "0.5";
+  certificate["claims"][0]["settled_frequency_error"] = "0.49";
+  const Verification found = verified(certificate);
+  const auto gains = std::find_if(found.parts.begin(), found.parts.end(),
+                                  [](const Part& part) { return part.name == "gains"; });
+  REQUIRE(gains != found.parts.end());
+  CHECK_FALSE(gains->objections.empty());
 }
 
 TEST_CASE("a harmonic in the signal is one like any other, with its own curve") {

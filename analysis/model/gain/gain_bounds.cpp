@@ -230,6 +230,17 @@ double GainBounds::linear_error(double noise, double slew) const {
   return sum;
 }
 
+double GainBounds::residual_error() const {
+  const Numbers size = sizes({}, Numbers(network_.forms.size(), 0.0));
+  double sum = 0.0;
+  for (std::size_t l = 0; l < size.size(); ++l) {
+    if (network_.inputs[l].cause == Cause::residual) {
+      sum = plus(sum, total_.back()[l], size[l]);
+    }
+  }
+  return sum;
+}
+
 std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance) const {
   const bool is_covered = !network_.has_ripples || !(disturbance.slew > 0.0);
   const std::optional<std::vector<Numbers>> sequence =

@@ -46,6 +46,8 @@ class GainBounds {
   /// The worst-case gain from inputs of this cause to the frequency error: its size in the long run where the
   /// loop is linear.
   [[nodiscard]] double linear_error(double noise, double slew) const;
+  /// What the listed steady state, which is none exactly, contributes to the frequency error.
+  [[nodiscard]] double residual_error() const;
 
   /// Empty where no bound closes.
   [[nodiscard]] std::optional<LoopBounds> bounds(const LoopDisturbance& disturbance) const;

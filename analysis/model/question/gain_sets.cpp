@@ -263,6 +263,9 @@ std::optional<Found> find_loop(const SetQuestion& question) {
 std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::string* reason) {
   constexpr std::size_t kBlocks = 64;
   constexpr double kTail = 1e-8;
+  // rad/sample. Sentences speak of the steady state: what the listed one is off may not show. Half of what
+  // the checker allows.
+  constexpr double kMostOfResidual = 0x1p-19;
   constexpr std::size_t kMostSamples = 1U << 20U;
   const Interval& band = question.whole_band;
   // One channel does not tell a frequency from its negative.
@@ -300,6 +303,9 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::strin
     }
     if (!gains || !gains->bounds({})) {
       return nothing("the bounds of its errors do not close, even without noise");
+    }
+    if (!(gains->residual_error() <= kMostOfResidual)) {
+      return nothing("its steady state is not a linear function of the frequency over the whole band");
     }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
     ProvedSets sets = GainSets(question, *gains, half_distance).all();

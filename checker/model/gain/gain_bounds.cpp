@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "checker/model/gain/loop_bounds.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -169,6 +171,17 @@ Ball GainBounds::mean(const std::vector<double>& bounds) const {
     result -= most * (one - min(one, Ball(bounds[ripple.angle_form])));
   }
   return result;
+}
+
+bool GainBounds::is_about_steady_state() const {
+  double sum = 0.0;
+  for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
+    if (network_->inputs[input].is_residual) {
+      sum += upward_product(kernels_.total(network_->error_form, input),
+                            upper(network_->inputs[input].size(zero, zero)));
+    }
+  }
+  return up(sum) <= kMostOfResidual;
 }
 
 std::optional<GainErrors> GainBounds::errors(const Ball& noise, const Ball& slew,

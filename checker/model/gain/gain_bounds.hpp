@@ -50,6 +50,8 @@ class GainBounds {
 
   /// Whether the sums over all samples are bounded.
   [[nodiscard]] bool is_certain() const { return kernels_.is_certain(); }
+  /// Whether what sentences call the steady state is one up to rounding.
+  [[nodiscard]] bool is_about_steady_state() const;
   /// The bounds for |v| <= noise, |change of omega| <= slew and |xi_0| <= start by state; nothing where they
   /// are not certain, as with ripples and a slew that is not 0.
   [[nodiscard]] std::optional<GainErrors> errors(const Ball& noise, const Ball& slew,

@@ -62,10 +62,13 @@ std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const Mo
     }
     result->bounds.emplace(result->network, static_cast<std::size_t>(horizon),
                            static_cast<std::size_t>(blocks));
-    if (result->bounds->is_certain()) {
+    if (!result->bounds->is_certain()) {
+      objections.emplace_back("the loop is not stable, or the horizon is too short");
+    } else if (!result->bounds->is_about_steady_state()) {
+      objections.emplace_back("what is listed is no steady state of the loop");
+    } else {
       return result;
     }
-    objections.emplace_back("the loop is not stable, or the horizon is too short");
   } catch (const NotCovered& reason) {
     objections.emplace_back(reason.what());
   }

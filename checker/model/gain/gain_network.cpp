@@ -75,6 +75,7 @@ void add_state(const LinearFrame& frame, const LinearValue& value, const SteadyS
   input.column.assign(frame.states(), {zero, zero});
   input.column[state].first = one;
   input.size = [size = abs(residual).upper()](const Ball& /*noise*/, const Ball& /*slew*/) { return size; };
+  input.is_residual = true;
   network.inputs.push_back(std::move(input));
 }
 

@@ -27,6 +27,7 @@ struct GainInput {
   /// Of a remainder: the forms that it is about, and the size at their bounds.
   std::vector<std::size_t> about;
   std::function<Ball(const std::vector<Ball>& bounds)> at_bounds;
+  bool is_residual = false;  ///< of the steady state
 
   [[nodiscard]] bool is_remainder() const { return !about.empty(); }
 };

@@ -9,6 +9,10 @@
 
 namespace veritrack::checker {
 
+/// rad/sample. Sentences speak of the steady state: what the listed one is off must not show in the
+/// frequency.
+constexpr double kMostOfResidual = 0x1p-18;
+
 /// Bounds on the frequency error of a loop, rad/sample, for certain noise, slew and starts.
 class FrequencyErrors {
  public:

@@ -16,9 +16,6 @@ struct GroupErrors {
   std::unique_ptr<PhaseSolver> solver;
 };
 
-/// rad/sample. Sentences speak of the steady state: what a curve is off must not show in the frequency.
-constexpr double kMostOfResidual = 0x1p-18;
-
 double size_of(const DoubleRange& range) {
   return largest_in(range);
 }

@@ -14,116 +14,299 @@ namespace veritrack::model {
 namespace {
 
 using Complex = std::complex<double>;
+using Eigen::Index;
 
-/// X with e X B - B X = R, by elimination of the n^2 equations; false where there is no solution.
-bool solve_sylvester(Complex e, const Eigen::MatrixXd& b, Eigen::MatrixXcd& x) {
-  const auto n = b.rows();
-  const auto size = n * n;
-  Eigen::MatrixXcd a = Eigen::MatrixXcd::Zero(size, size + 1);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Eigen::Index row = i * n + j;
-      for (Eigen::Index k = 0; k < n; ++k) {
-        a(row, i * n + k) += e * b(k, j);
-        a(row, k * n + j) -= b(i, k);
+/// X with e X B - A X = R, by elimination; false where there is no solution. `x`: R, then X.
+bool solve_sylvester(Complex e, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXcd& x) {
+  const Index rows = a.rows();
+  const Index columns = b.rows();
+  const Index size = rows * columns;
+  Eigen::MatrixXcd lines = Eigen::MatrixXcd::Zero(size, size + 1);
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j) {
+      const Index line = i * columns + j;
+      for (Index k = 0; k < columns; ++k) {
+        lines(line, i * columns + k) += e * b(k, j);
       }
-      a(row, size) = x(i, j);
+      for (Index k = 0; k < rows; ++k) {
+        lines(line, k * columns + j) -= a(i, k);
+      }
+      lines(line, size) = x(i, j);
     }
   }
-  for (Eigen::Index p = 0; p < size; ++p) {
-    Eigen::Index pivot = p;
-    for (Eigen::Index i = p + 1; i < size; ++i) {
-      pivot = std::abs(a(i, p)) > std::abs(a(pivot, p)) ? i : pivot;
+  for (Index p = 0; p < size; ++p) {
+    Index pivot = p;
+    for (Index i = p + 1; i < size; ++i) {
+      pivot = std::abs(lines(i, p)) > std::abs(lines(pivot, p)) ? i : pivot;
     }
-    if (!(std::abs(a(pivot, p)) > 1e-14)) {
+    if (!(std::abs(lines(pivot, p)) > 1e-14)) {
       return false;
     }
-    a.row(p).swap(a.row(pivot));
-    for (Eigen::Index i = 0; i < size; ++i) {
+    lines.row(p).swap(lines.row(pivot));
+    for (Index i = 0; i < size; ++i) {
       if (i != p) {
-        const Complex factor = a(i, p) / a(p, p);
-        for (Eigen::Index j = p; j <= size; ++j) {
-          a(i, j) -= factor * a(p, j);
+        const Complex factor = lines(i, p) / lines(p, p);
+        for (Index j = p; j <= size; ++j) {
+          lines(i, j) -= factor * lines(p, j);
         }
       }
     }
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      x(i, j) = a(i * n + j, size) / a(i * n + j, i * n + j);
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j) {
+      const Index line = i * columns + j;
+      x(i, j) = lines(line, size) / lines(line, line);
     }
   }
   return true;
 }
 
 /// Matrices on a grid of phases, column-major in columns.
-Eigen::Map<Eigen::MatrixXd> matrix_at(Eigen::MatrixXd& values, int j, Eigen::Index n) {
+Eigen::Map<Eigen::MatrixXd> matrix_at(Eigen::MatrixXd& values, int j, Index n) {
+  return {values.col(j).data(), n, n};
+}
+Eigen::Map<const Eigen::MatrixXd> matrix_at(const Eigen::MatrixXd& values, int j, Index n) {
   return {values.col(j).data(), n, n};
 }
 
+/// The functions with these harmonics.
+Eigen::MatrixXd on_grid(const Eigen::MatrixXcd& harmonics, const PhaseGrid& grid) {
+  Eigen::MatrixXd values(harmonics.rows(), grid.size());
+  for (int j = 0; j < grid.size(); ++j) {
+    values.col(j) = value_at(harmonics, grid.phase(j));
+  }
+  return values;
+}
+
+/// Newton's method for P with P(phi + omega)^-1 A(phi) P(phi) = [L, 0; 0, F(phi)], L constant and of one
+/// block for each group of modes.
+class Refinement {
+ public:
+  /// Of the basis no more than these harmonics are kept; the grid resolves half as many again, because the
+  /// aliases of products would grow from step to step.
+  Refinement(const TrackedTone& tone, const NodeCurve& curve, const PhaseGrid& grid, int harmonics,
+             FloquetBasis basis)
+      : grid_(&grid),
+        harmonics_(harmonics),
+        n_(static_cast<Index>(tone.step.states())),
+        m_(basis.modes()),
+        omega_(curve.frequency),
+        jacobians_(jacobians_along(tone, curve, grid)),
+        later_(grid.shift(curve.frequency)),
+        earlier_(grid.shift(-curve.frequency)),
+        kept_(grid.shift(0.0, harmonics)),
+        basis_(std::move(basis)) {}
+
+  [[nodiscard]] const FloquetBasis& basis() const { return basis_; }
+
+  /// False where it does not converge.
+  bool solve() {
+    constexpr int kMostSteps = 30;
+    double change = INFINITY;
+    for (int step = 0; step < kMostSteps; ++step) {
+      look();
+      const double before = std::exchange(change, improve());
+      if (!(change < 1e6)) {
+        return false;
+      }
+      if (change < 1e-11 || (change < 1e-8 && change >= 0.5 * before)) {
+        break;
+      }
+    }
+    return change < 1e-7;
+  }
+
+  /// Makes it depend on the frequency smoothly: the mean of reference^-1 P has the unit matrix in the block
+  /// of each group, and that of the others is the unit matrix at every phase.
+  void normalise(const FloquetBasis& reference) {
+    Eigen::MatrixXd seen(n_ * n_, grid_->size());
+    for (int j = 0; j < grid_->size(); ++j) {
+      matrix_at(seen, j, n_) = rigor::product(rigor::approximate_inverse(matrix_at(reference.values, j, n_)),
+                                              matrix_at(basis_.values, j, n_));
+    }
+    const Eigen::VectorXd sum = seen.rowwise().mean();
+    const Eigen::Map<const Eigen::MatrixXd> mean(sum.data(), n_, n_);
+    Eigen::MatrixXd back = Eigen::MatrixXd::Zero(n_, n_);
+    for (const auto& [first, size] : groups()) {
+      back.block(first, first, size, size) = rigor::approximate_inverse(mean.block(first, first, size, size));
+    }
+    const Index fast = n_ - m_;
+    for (int j = 0; j < grid_->size(); ++j) {
+      if (fast > 0) {
+        back.bottomRightCorner(fast, fast) =
+            rigor::approximate_inverse(matrix_at(seen, j, n_).bottomRightCorner(fast, fast));
+      }
+      matrix_at(basis_.values, j, n_) = rigor::product(matrix_at(basis_.values, j, n_), back).eval();
+    }
+  }
+
+  [[nodiscard]] FloquetNode node() {
+    look();
+    FloquetNode node{Eigen::MatrixXcd(n_ * n_, harmonics_ + 1), mean_};
+    const Eigen::MatrixXcd waves = harmonics_of(basis_.values, harmonics_);
+    for (Index i = 0; i < n_; ++i) {
+      for (Index j = 0; j < n_; ++j) {
+        node.basis.row(i * n_ + j) = waves.row(j * n_ + i);
+      }
+    }
+    return node;
+  }
+
+ private:
+  struct Group {
+    Index first, size;
+  };
+  [[nodiscard]] std::vector<Group> groups() const {
+    std::vector<Group> result;
+    for (Index i = 0; i < m_; ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      if (i == 0 || basis_.group_of[place] != basis_.group_of[place - 1]) {
+        result.push_back({i, 0});
+      }
+      ++result.back().size;
+    }
+    return result;
+  }
+
+  /// The matrix of the errors in this basis, and its mean.
+  void look() {
+    const Eigen::MatrixXd there = basis_.values * later_;
+    seen_.resize(n_ * n_, grid_->size());
+    for (int j = 0; j < grid_->size(); ++j) {
+      matrix_at(seen_, j, n_) =
+          rigor::product(rigor::approximate_inverse(matrix_at(there, j, n_)),
+                         rigor::product(matrix_at(jacobians_, j, n_), matrix_at(basis_.values, j, n_)));
+    }
+    const Eigen::VectorXd sum = seen_.rowwise().mean();
+    mean_ = Eigen::Map<const Eigen::MatrixXd>(sum.data(), n_, n_);
+  }
+
+  /// One step; returns its size, NaN where it has none.
+  double improve() {
+    Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n_ * n_, grid_->size());
+    if (!separate_modes(factor) || !separate_fast(factor)) {
+      return NAN;
+    }
+    double size = 0.0;
+    for (int j = 0; j < grid_->size(); ++j) {
+      const Eigen::MatrixXd more = rigor::product(matrix_at(basis_.values, j, n_), matrix_at(factor, j, n_));
+      size = std::max(size, matrix_at(factor, j, n_).cwiseAbs().maxCoeff());
+      matrix_at(basis_.values, j, n_) += more;
+    }
+    basis_.values = (basis_.values * kept_).eval();
+    return size;
+  }
+
+  /// What changes with the phase, and what mixes groups.
+  bool separate_modes(Eigen::MatrixXd& factor) const {
+    const Eigen::MatrixXcd waves = harmonics_of(seen_, harmonics_);
+    for (int h = 0; h <= harmonics_; ++h) {
+      const Eigen::VectorXcd column = waves.col(h);
+      const Eigen::Map<const Eigen::MatrixXcd> wave(column.data(), n_, n_);
+      for (const Group& to : groups()) {
+        for (const Group& from : groups()) {
+          Eigen::MatrixXcd x = wave.block(to.first, from.first, to.size, from.size);
+          if ((h == 0 && to.first == from.first) || !(x.cwiseAbs().maxCoeff() > 1e-17)) {
+            continue;
+          }
+          if (!solve_sylvester(std::polar(1.0, h * omega_), mean_.block(to.first, to.first, to.size, to.size),
+                               mean_.block(from.first, from.first, from.size, from.size), x)) {
+            return false;
+          }
+          for (int j = 0; j < grid_->size(); ++j) {
+            matrix_at(factor, j, n_).block(to.first, from.first, to.size, from.size) +=
+                (x * std::polar(1.0, h * grid_->phase(j))).real();
+          }
+        }
+      }
+    }
+    return true;
+  }
+
+  /// What couples modes and the others, which decay faster: by the recursions for it, each in the direction
+  /// in which it converges.
+  bool separate_fast(Eigen::MatrixXd& factor) const {
+    constexpr int kMostRounds = 3000;
+    const Index fast = n_ - m_;
+    if (fast == 0) {
+      return true;
+    }
+    const Eigen::MatrixXd back = rigor::approximate_inverse(mean_.topLeftCorner(m_, m_));
+    Eigen::MatrixXd by_modes = Eigen::MatrixXd::Zero(fast * m_, grid_->size());
+    Eigen::MatrixXd by_fast = by_modes;
+    for (int round = 0; round < kMostRounds; ++round) {
+      Eigen::MatrixXd next(fast * m_, grid_->size());
+      const Eigen::MatrixXd fast_later = by_fast * later_;
+      Eigen::MatrixXd fast_next(fast * m_, grid_->size());
+      for (int j = 0; j < grid_->size(); ++j) {
+        const auto seen = matrix_at(seen_, j, n_);
+        const Eigen::Map<const Eigen::MatrixXd> now(by_modes.col(j).data(), fast, m_);
+        Eigen::Map<Eigen::MatrixXd>(next.col(j).data(), fast, m_) =
+            (seen.bottomRightCorner(fast, fast) * now + seen.bottomLeftCorner(fast, m_)) * back;
+        const Eigen::Map<const Eigen::MatrixXd> later(fast_later.col(j).data(), m_, fast);
+        Eigen::Map<Eigen::MatrixXd>(fast_next.col(j).data(), m_, fast) =
+            back * (later * seen.bottomRightCorner(fast, fast) - seen.topRightCorner(m_, fast));
+      }
+      next = (next * earlier_).eval();
+      const double change =
+          std::max((next - by_modes).cwiseAbs().maxCoeff(), (fast_next - by_fast).cwiseAbs().maxCoeff());
+      by_modes = std::move(next);
+      by_fast = std::move(fast_next);
+      if (!(change < 1e12)) {
+        return false;
+      }
+      if (change < 1e-14 * (1.0 + by_fast.cwiseAbs().maxCoeff())) {
+        break;
+      }
+    }
+    for (int j = 0; j < grid_->size(); ++j) {
+      auto there = matrix_at(factor, j, n_);
+      there.bottomLeftCorner(fast, m_) = Eigen::Map<const Eigen::MatrixXd>(by_modes.col(j).data(), fast, m_);
+      there.topRightCorner(m_, fast) = Eigen::Map<const Eigen::MatrixXd>(by_fast.col(j).data(), m_, fast);
+    }
+    return true;
+  }
+
+  const PhaseGrid* grid_;
+  int harmonics_;
+  Index n_, m_;
+  double omega_;
+  Eigen::MatrixXd jacobians_, later_, earlier_, kept_;
+  FloquetBasis basis_;
+  Eigen::MatrixXd seen_, mean_;
+};
+
 }  // namespace
 
-std::optional<FloquetNode> floquet_node(const TrackedTone& tone, const NodeCurve& curve, int harmonics) {
-  constexpr int kMostSteps = 30;
-  const auto n = static_cast<Eigen::Index>(tone.step.states());
-  const PhaseGrid grid(harmonics);
-  Eigen::MatrixXd a = jacobians_along(tone, curve, grid);
-  const Eigen::MatrixXd shift = grid.shift(curve.frequency);
-  Eigen::MatrixXd basis(n * n, grid.size());
-  for (int j = 0; j < grid.size(); ++j) {
-    matrix_at(basis, j, n).setIdentity();
-  }
-  Eigen::MatrixXd mean;
-  double change = INFINITY;
-  for (int step = 0; step < kMostSteps; ++step) {
-    Eigen::MatrixXd there = basis * shift;
-    Eigen::MatrixXd seen(n * n, grid.size());
-    for (int j = 0; j < grid.size(); ++j) {
-      matrix_at(seen, j, n) = rigor::product(rigor::approximate_inverse(matrix_at(there, j, n)),
-                                             rigor::product(matrix_at(a, j, n), matrix_at(basis, j, n)));
-    }
-    const Eigen::MatrixXcd waves = harmonics_of(seen, harmonics);
-    const Eigen::VectorXd first = waves.col(0).real();
-    mean = Eigen::Map<const Eigen::MatrixXd>(first.data(), n, n);
-    Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n * n, grid.size());
-    const double before = change;
-    change = 0.0;
-    for (int h = 1; h <= harmonics; ++h) {
-      const Eigen::VectorXcd column = waves.col(h);
-      Eigen::MatrixXcd x = Eigen::Map<const Eigen::MatrixXcd>(column.data(), n, n);
-      if (!(x.cwiseAbs().maxCoeff() > 1e-17)) {
-        continue;
-      }
-      if (!solve_sylvester(std::polar(1.0, h * curve.frequency), mean, x)) {
-        return std::nullopt;
-      }
-      for (int j = 0; j < grid.size(); ++j) {
-        matrix_at(factor, j, n) += (x * std::polar(1.0, h * grid.phase(j))).real();
-      }
-    }
-    for (int j = 0; j < grid.size(); ++j) {
-      const Eigen::MatrixXd more = rigor::product(matrix_at(basis, j, n), matrix_at(factor, j, n));
-      change = std::max(change, matrix_at(factor, j, n).cwiseAbs().maxCoeff());
-      matrix_at(basis, j, n) += more;
-    }
-    if (!(change < 1e6)) {
-      return std::nullopt;
-    }
-    if (change < 1e-11 || (step > 6 && change < 1e-8 && change >= 0.5 * before)) {
-      break;
-    }
-  }
-  if (!(change < 1e-7)) {
+std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
+                                                      const std::vector<NodeCurve>& curves, int harmonics) {
+  const PhaseGrid coarse(harmonics);
+  const PhaseGrid grid(harmonics + harmonics / 2);
+  const std::size_t middle = curves.size() / 2;
+  FloquetBasis modes =
+      floquet_modes(coarse, curves[middle].frequency, jacobians_along(tone, curves[middle], coarse),
+                    static_cast<Index>(tone.step.states()));
+  modes.values = on_grid(harmonics_of(modes.values, harmonics), grid);
+  Refinement reference(tone, curves[middle], grid, harmonics, std::move(modes));
+  if (reference.basis().modes() == 0 || !reference.solve()) {
     return std::nullopt;
   }
-  FloquetNode node{Eigen::MatrixXcd(n * n, harmonics + 1), mean};
-  const Eigen::MatrixXcd waves = harmonics_of(basis, harmonics);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      node.basis.row(i * n + j) = waves.row(j * n + i);
+  std::vector<FloquetNode> nodes(curves.size());
+  nodes[middle] = reference.node();
+  for (const int direction : {-1, 1}) {
+    FloquetBasis nearest = reference.basis();
+    for (std::size_t i = middle + static_cast<std::size_t>(direction); i < curves.size();
+         i += static_cast<std::size_t>(direction)) {  // below 0 is beyond the end
+      Refinement here(tone, curves[i], grid, harmonics, nearest);
+      if (!here.solve()) {
+        return std::nullopt;
+      }
+      here.normalise(reference.basis());
+      nodes[i] = here.node();
+      nearest = here.basis();
     }
   }
-  return node;
+  return nodes;
 }
 
 namespace {
@@ -181,17 +364,16 @@ std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, double 
   if (!fit) {
     return std::nullopt;
   }
+  const auto nodes = floquet_nodes(tone, fit->nodes, kHarmonics);
+  if (!nodes) {
+    return std::nullopt;
+  }
   std::vector<Eigen::MatrixXcd> bases;
   std::vector<Eigen::MatrixXd> matrices;
   Eigen::MatrixXd powers(kFineNodes, kFineNodes);
   for (int j = 0; j < kFineNodes; ++j) {
-    const NodeCurve& curve = fit->nodes[static_cast<std::size_t>(j)];
-    const auto node = floquet_node(tone, curve, kHarmonics);
-    if (!node) {
-      return std::nullopt;
-    }
-    bases.push_back(node->basis);
-    matrices.push_back(node->matrix);
+    bases.push_back((*nodes)[static_cast<std::size_t>(j)].basis);
+    matrices.push_back((*nodes)[static_cast<std::size_t>(j)].matrix);
     const double z = 2 * j + 1 == kFineNodes
                          ? 0.0
                          : -std::cos(std::numbers::pi * (static_cast<double>(j) + 0.5) / kFineNodes);

@@ -1,0 +1,27 @@
+// The modes of the errors about a steady state at one frequency: where to begin a basis in which they have
+// constant coefficients. In floating point.
+#pragma once
+
+#include <vector>
+
+#include "analysis/model/steady_state/phase_grid.hpp"
+
+namespace veritrack::model {
+
+/// A basis over the phase. The first `modes` columns are modes, in groups that belong together (a pair of
+/// complex ones, or such whose multipliers are close); the others are constant.
+struct FloquetBasis {
+  Eigen::MatrixXd values;     ///< n^2 x grid.size(): column-major matrices
+  std::vector<int> group_of;  ///< by mode, in order, from 0
+
+  [[nodiscard]] Eigen::Index modes() const { return static_cast<Eigen::Index>(group_of.size()); }
+};
+
+/// `jacobians`: n^2 x grid.size(), column-major matrices A(phi). A mode is p with A(phi) p(phi) = lambda
+/// p(phi + omega). Each multiplier has others beside it, lambda e^(i h omega); taken is the one with the
+/// argument within omega / 2 and the fewest harmonics. What the grid does not resolve, as states that only
+/// delay others, is no mode: unit vectors complete the basis.
+[[nodiscard]] FloquetBasis floquet_modes(const PhaseGrid& grid, double omega,
+                                         const Eigen::MatrixXd& jacobians, Eigen::Index states);
+
+}  // namespace veritrack::model

@@ -106,7 +106,9 @@ TEST_CASE("Taylor models and dual numbers: derivatives are those of a certain br
   };
   CHECK(absolute(at(-2.0, -1.0)).derivative(0).upper() == -1.0);
   CHECK(absolute(at(1.0, 2.0)).derivative(0).lower() == 1.0);
-  for (const auto& [low, high] : {std::pair(-1.0, 1.0), std::pair(0.0, 1.0), std::pair(-1.0, 0.0)}) {
+  for (const auto& [from, to] : {std::pair(-1.0, 1.0), std::pair(0.0, 1.0), std::pair(-1.0, 0.0)}) {
+    const double low = from;  // clang captures no structured bindings
+    const double high = to;
     CAPTURE(low);
     CHECK(!rigor::is_finite(absolute(at(low, high)).derivative(0)));
     CHECK(!rigor::is_finite(maximum(at(low, high), Dual(0.0)).derivative(0)));

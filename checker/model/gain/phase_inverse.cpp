@@ -35,30 +35,31 @@ std::size_t best_pivot(const PolynomialMatrix& matrix, std::size_t first) {
 
 }  // namespace
 
-PolynomialMatrix inverse_of(PolynomialMatrix matrix) {
+PolynomialMatrix solution_of(PolynomialMatrix matrix, PolynomialMatrix sides) {
   const std::size_t n = matrix.size();
-  PolynomialMatrix result(n, PolynomialRow(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    result[i][i] = BallPolynomial(1.0);
-  }
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t pivot = best_pivot(matrix, i);
     std::swap(matrix[i], matrix[pivot]);
-    std::swap(result[i], result[pivot]);
+    std::swap(sides[i], sides[pivot]);
     const BallPolynomial inverse = reciprocal(matrix[i][i]);
-    for (std::size_t j = 0; j < n; ++j) {
-      matrix[i][j] = inverse * matrix[i][j];
-      result[i][j] = inverse * result[i][j];
-    }
+    const auto scale = [&inverse](PolynomialRow& entries, std::size_t from) {
+      for (std::size_t j = from; j < entries.size(); ++j) {
+        entries[j] = inverse * entries[j];
+      }
+    };
+    scale(matrix[i], i);
+    scale(sides[i], 0);
     for (std::size_t row = 0; row < n; ++row) {
       const BallPolynomial factor = matrix[row][i];
-      for (std::size_t j = 0; j < n && row != i; ++j) {
+      for (std::size_t j = i; j < n && row != i; ++j) {
         matrix[row][j] -= factor * matrix[i][j];
-        result[row][j] -= factor * result[i][j];
+      }
+      for (std::size_t j = 0; j < sides[row].size() && row != i; ++j) {
+        sides[row][j] -= factor * sides[i][j];
       }
     }
   }
-  return result;
+  return sides;
 }
 
 }  // namespace veritrack::checker

@@ -1,4 +1,4 @@
-// The inverse of a matrix of functions over a cell of phases and frequencies.
+// Linear equations whose coefficients are functions over a cell of phases and frequencies.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,8 @@ namespace veritrack::checker {
 using PolynomialRow = std::vector<BallPolynomial>;
 using PolynomialMatrix = std::vector<PolynomialRow>;
 
-/// By Gaussian elimination. Throws NotCovered where no pivot certainly differs from 0.
-PolynomialMatrix inverse_of(PolynomialMatrix matrix);
+/// matrix^-1 sides, by Gaussian elimination on the sides themselves: the product with an inverse would add up
+/// errors that cancel here. Throws NotCovered where no pivot certainly differs from 0.
+PolynomialMatrix solution_of(PolynomialMatrix matrix, PolynomialMatrix sides);
 
 }  // namespace veritrack::checker

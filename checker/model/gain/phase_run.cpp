@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "checker/model/gain/exact_number.hpp"
@@ -122,29 +123,42 @@ class StepRun {
   PhaseRun run_;
 };
 
-PolynomialRow product_of(const PolynomialMatrix& matrix, const PolynomialRow& column) {
-  PolynomialRow result;
-  for (const PolynomialRow& row : matrix) {
-    BallPolynomial sum;
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      sum += row[j] * column[j];
-    }
-    result.push_back(std::move(sum));
-  }
-  return result;
-}
+/// Right sides of the equations for components of eta, which are solved together.
+class Sides {
+ public:
+  explicit Sides(std::size_t n) : rows_(n) {}
 
-PolynomialMatrix product_of(const PolynomialMatrix& x, const PolynomialMatrix& y) {
-  PolynomialMatrix result(x.size(), PolynomialRow(x.size()));
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    for (std::size_t j = 0; j < x.size(); ++j) {
-      for (std::size_t k = 0; k < x.size(); ++k) {
-        result[i][j] += x[i][k] * y[k][j];
+  void add(const std::function<BallPolynomial(std::size_t row)>& entry) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      rows_[i].push_back(entry(i));
+    }
+  }
+  void solve(PolynomialMatrix matrix) { rows_ = solution_of(std::move(matrix), std::move(rows_)); }
+  /// The solutions, in the order in which their sides were added.
+  [[nodiscard]] PolynomialRow next() {
+    PolynomialRow column;
+    for (PolynomialRow& row : rows_) {
+      column.push_back(std::move(row[next_]));
+    }
+    ++next_;
+    return column;
+  }
+  /// The next n of them, as the columns of a matrix.
+  [[nodiscard]] PolynomialMatrix next_matrix() {
+    PolynomialMatrix matrix(rows_.size());
+    for (std::size_t j = 0; j < rows_.size(); ++j) {
+      PolynomialRow column = next();
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        matrix[i].push_back(std::move(column[i]));
       }
     }
+    return matrix;
   }
-  return result;
-}
+
+ private:
+  PolynomialMatrix rows_;
+  std::size_t next_ = 0;
+};
 
 /// The variables of the step of which new components are functions.
 std::vector<std::size_t> variables_of_step(const PhaseStructure& structure) {
@@ -176,29 +190,29 @@ PhaseRun run_over(const PhaseStructure& structure, const TrackedModel& model, co
   StepRun step(structure, here, signal_later(model, cell.tube, part));
   PhaseRun run = std::move(step.run());
   run.bias = step.of(structure.graph.frequency).base - frequency_over(cell.tube, part);
-  run.inverse = inverse_of(square_of(there.shape, n));
-  PolynomialRow residual;
-  for (std::size_t i = 0; i < n; ++i) {
-    residual.push_back(step.of(structure.graph.results[i]).base - there.curve[i]);
-  }
-  run.residual = product_of(run.inverse, residual);
-  for (const std::size_t variable : variables_of_step(structure)) {
-    PolynomialRow column;
-    for (const std::size_t result : structure.graph.results) {
-      column.push_back(step.of(result).slope(variable));
-    }
-    run.columns.push_back(product_of(run.inverse, column));
-  }
   const TubeOver slope(cell.slope, part, 1);
   const BallPolynomial per_frequency(one / Ball(cell.tube.half_width));
-  for (const BallPolynomial& entry : product_of(run.inverse, slope.curve)) {
-    run.slew.push_back(-(per_frequency * entry));
+  const std::vector<std::size_t> variables = variables_of_step(structure);
+  Sides sides(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    sides.add([&](std::size_t i) { return BallPolynomial(i == j ? 1.0 : 0.0); });
   }
-  for (PolynomialRow& row : product_of(run.inverse, square_of(slope.shape, n))) {
-    run.turned.emplace_back();
-    for (const BallPolynomial& entry : row) {
-      run.turned.back().push_back(per_frequency * entry);
-    }
+  for (std::size_t j = 0; j < n; ++j) {
+    sides.add([&](std::size_t i) { return per_frequency * slope.shape[i * n + j]; });
+  }
+  const std::vector<std::size_t>& results = structure.graph.results;
+  sides.add([&](std::size_t i) { return step.of(results[i]).base - there.curve[i]; });
+  sides.add([&](std::size_t i) { return -(per_frequency * slope.curve[i]); });
+  for (const std::size_t variable : variables) {
+    sides.add([&](std::size_t i) { return step.of(results[i]).slope(variable); });
+  }
+  sides.solve(square_of(there.shape, n));
+  run.inverse = sides.next_matrix();
+  run.turned = sides.next_matrix();
+  run.residual = sides.next();
+  run.slew = sides.next();
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    run.columns.push_back(sides.next());
   }
   return run;
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "analysis/rigor/eigenpairs.hpp"
+#include "analysis/rigor/small_matrix.hpp"
 
 namespace veritrack::model {
 
@@ -28,24 +29,50 @@ class Modes {
     balance();
   }
 
-  [[nodiscard]] FloquetBasis basis() const {
+  /// The lifts with arguments within omega / 2 and the fewest harmonics.
+  [[nodiscard]] FloquetBasis by_mode() const {
     std::vector<Mode> candidates = resolved();
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Mode& a, const Mode& b) { return a.harmonics < b.harmonics; });
     std::vector<Mode> taken;
-    std::vector<Eigen::MatrixXd> columns;  // n x grid.size() each
+    std::vector<Eigen::MatrixXd> columns;
     for (const Mode& each : candidates) {
-      std::vector<Eigen::MatrixXd> more = columns;
-      more.emplace_back(each.values.real());
-      if (each.multiplier.imag() != 0.0) {
-        more.emplace_back(each.values.imag());
-      }
-      if (static_cast<Index>(more.size()) <= n_ && are_independent(more)) {
-        columns = std::move(more);
+      if (std::fabs(std::arg(each.multiplier)) <= 0.5 * omega_ && add_to(columns, each)) {
         taken.push_back(each);
       }
     }
     return completed(grouped(taken));
+  }
+
+  /// The lifts whose means over the phase are farthest from dependent; empty where they are not enough.
+  [[nodiscard]] FloquetBasis by_state() const {
+    constexpr double kLeast = 0.01;
+    std::vector<Eigen::MatrixXd> columns;
+    const std::vector<Mode> candidates = resolved();
+    while (static_cast<Index>(columns.size()) < n_) {
+      const Mode* best = nullptr;
+      double most = kLeast;
+      for (const Mode& each : candidates) {
+        std::vector<Eigen::MatrixXd> with = columns;
+        const double left = add_to(with, each) ? mean_left(with) : 0.0;
+        if (left > most) {
+          most = left;
+          best = &each;
+        }
+      }
+      if (best == nullptr || !add_to(columns, *best)) {
+        return {};
+      }
+    }
+    FloquetBasis result = completed({columns, std::vector<int>(columns.size(), 0)});
+    const Eigen::VectorXd sum = result.values.rowwise().mean();
+    const Eigen::MatrixXd back =
+        rigor::approximate_inverse(Eigen::Map<const Eigen::MatrixXd>(sum.data(), n_, n_));
+    for (int j = 0; j < grid_->size(); ++j) {
+      Eigen::Map<Eigen::MatrixXd> there(result.values.col(j).data(), n_, n_);
+      there = (there * back).eval();
+    }
+    return result;
   }
 
  private:
@@ -101,7 +128,7 @@ class Modes {
     std::vector<Mode> modes;
     for (Index e = 0; e < found.values.size(); ++e) {
       const Complex value = found.values[e];
-      if (!(value.imag() >= 0.0) || !(std::fabs(std::arg(value)) <= 0.5 * omega_)) {
+      if (!(value.imag() >= 0.0)) {
         continue;
       }
       const Eigen::VectorXcd vector = found.vectors.col(e);
@@ -128,6 +155,36 @@ class Modes {
     }
     mode.harmonics /= sum;
     mode.edge /= sum;
+  }
+
+  /// False, with no change, where there is no room or the columns would be dependent at some phase.
+  [[nodiscard]] bool add_to(std::vector<Eigen::MatrixXd>& columns, const Mode& mode) const {
+    std::vector<Eigen::MatrixXd> more = columns;
+    more.emplace_back(mode.values.real());
+    if (mode.multiplier.imag() != 0.0) {
+      more.emplace_back(mode.values.imag());
+    }
+    if (static_cast<Index>(more.size()) > n_ || !are_independent(more)) {
+      return false;
+    }
+    columns = std::move(more);
+    return true;
+  }
+
+  /// The smallest share of a column, against its largest entry, that its mean has beside those of the others.
+  [[nodiscard]] double mean_left(const std::vector<Eigen::MatrixXd>& columns) const {
+    Eigen::MatrixXd means(n_, static_cast<Index>(columns.size()));
+    double least = 1.0;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const Eigen::VectorXd mean = columns[c].rowwise().mean();
+      const double share = mean.norm() / columns[c].cwiseAbs().maxCoeff();
+      if (!(share > 0.0)) {
+        return 0.0;
+      }
+      least = std::min(least, share);
+      means.col(static_cast<Index>(c)) = mean;
+    }
+    return least * least_left(means);
   }
 
   /// At every phase.
@@ -254,8 +311,9 @@ class Modes {
 }  // namespace
 
 FloquetBasis floquet_modes(const PhaseGrid& grid, double omega, const Eigen::MatrixXd& jacobians,
-                           Index states) {
-  return Modes(grid, omega, jacobians, states).basis();
+                           Index states, FloquetGauge gauge) {
+  const Modes modes(grid, omega, jacobians, states);
+  return gauge == FloquetGauge::by_mode ? modes.by_mode() : modes.by_state();
 }
 
 }  // namespace veritrack::model

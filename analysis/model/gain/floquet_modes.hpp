@@ -8,8 +8,12 @@
 
 namespace veritrack::model {
 
-/// A basis over the phase. The first `modes` columns are modes, in groups that belong together (a pair of
-/// complex ones, or such whose multipliers are close); the others are constant.
+/// Which modes share a block of the constant matrix, and their basis: such as cannot be told apart (a pair of
+/// complex ones, or close multipliers), orthonormal; or all, so that the mean of the basis over the phase is
+/// the unit matrix. Which gives better bounds depends on the loop.
+enum class FloquetGauge { by_mode, by_state };
+
+/// A basis over the phase. The first `modes` columns are modes, in groups; the others are constant.
 struct FloquetBasis {
   Eigen::MatrixXd values;     ///< n^2 x grid.size(): column-major matrices
   std::vector<int> group_of;  ///< by mode, in order, from 0
@@ -20,8 +24,10 @@ struct FloquetBasis {
 /// `jacobians`: n^2 x grid.size(), column-major matrices A(phi). A mode is p with A(phi) p(phi) = lambda
 /// p(phi + omega). Each multiplier has others beside it, lambda e^(i h omega); taken is the one with the
 /// argument within omega / 2 and the fewest harmonics. What the grid does not resolve, as states that only
-/// delay others, is no mode: unit vectors complete the basis.
+/// delay others, is no mode: unit vectors complete the basis. By state: no modes where there is no such
+/// basis.
 [[nodiscard]] FloquetBasis floquet_modes(const PhaseGrid& grid, double omega,
-                                         const Eigen::MatrixXd& jacobians, Eigen::Index states);
+                                         const Eigen::MatrixXd& jacobians, Eigen::Index states,
+                                         FloquetGauge gauge);
 
 }  // namespace veritrack::model

@@ -279,16 +279,20 @@ class Refinement {
 }  // namespace
 
 std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
-                                                      const std::vector<NodeCurve>& curves, int harmonics) {
+                                                      const std::vector<NodeCurve>& curves,
+                                                      FloquetGauge gauge, int harmonics) {
   const PhaseGrid coarse(harmonics);
   const PhaseGrid grid(harmonics + harmonics / 2);
   const std::size_t middle = curves.size() / 2;
   FloquetBasis modes =
       floquet_modes(coarse, curves[middle].frequency, jacobians_along(tone, curves[middle], coarse),
-                    static_cast<Index>(tone.step.states()));
+                    static_cast<Index>(tone.step.states()), gauge);
+  if (modes.modes() == 0) {
+    return std::nullopt;
+  }
   modes.values = on_grid(harmonics_of(modes.values, harmonics), grid);
   Refinement reference(tone, curves[middle], grid, harmonics, std::move(modes));
-  if (reference.basis().modes() == 0 || !reference.solve()) {
+  if (!reference.solve()) {
     return std::nullopt;
   }
   std::vector<FloquetNode> nodes(curves.size());
@@ -351,7 +355,8 @@ PhaseSeries series_of(const std::vector<Eigen::MatrixXcd>& powers, Eigen::Index 
 
 }  // namespace
 
-std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, double low, double high) {
+std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, FloquetGauge gauge, double low,
+                                                double high) {
   constexpr int kHarmonics = 24;
   constexpr double kNegligible = 1e-13;
   const rigor::NearestRounding nearest;
@@ -364,7 +369,7 @@ std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, double 
   if (!fit) {
     return std::nullopt;
   }
-  const auto nodes = floquet_nodes(tone, fit->nodes, kHarmonics);
+  const auto nodes = floquet_nodes(tone, fit->nodes, gauge, kHarmonics);
   if (!nodes) {
     return std::nullopt;
   }

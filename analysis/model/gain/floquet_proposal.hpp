@@ -22,11 +22,11 @@ struct FloquetNode {
 /// Empty where there is no basis.
 [[nodiscard]] std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
                                                                     const std::vector<NodeCurve>& curves,
-                                                                    int harmonics);
+                                                                    FloquetGauge gauge, int harmonics);
 
 /// Over the frequencies low to high, rad/sample. Empty where there is no steady state, or no basis. Holds
 /// round-to-nearest.
-[[nodiscard]] std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, double low,
-                                                              double high);
+[[nodiscard]] std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, FloquetGauge gauge,
+                                                              double low, double high);
 
 }  // namespace veritrack::model

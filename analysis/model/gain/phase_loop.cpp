@@ -68,14 +68,14 @@ std::vector<std::vector<double>> registers_on(const TrackerModel& tracker, const
 
 /// Cells of equal width.
 std::optional<std::vector<FloquetCell>> cells_of(const TrackedTone& tone, const Interval& band,
-                                                 std::size_t count) {
+                                                 std::size_t count, FloquetGauge gauge) {
   std::vector<FloquetCell> cells;
   const double width = (band.upper() - band.lower()) / static_cast<double>(count);
   // Cells overlap a little: their middles are rounded.
   const double room = 1e-9 * width + 1e-12;
   for (std::size_t i = 0; i < count; ++i) {
     const double low = band.lower() + static_cast<double>(i) * width;
-    auto cell = propose_floquet_cell(tone, low - room, low + width + room);
+    auto cell = propose_floquet_cell(tone, gauge, low - room, low + width + room);
     if (!cell) {
       return std::nullopt;
     }
@@ -167,19 +167,26 @@ std::optional<PhaseLoop> PhaseLoop::make(const TrackerModel& tracker, const Trac
                                          const search::Deadline& deadline) {
   constexpr std::size_t kMostCells = 8;
   for (std::size_t count = 1; count <= (with_slew ? 1 : kMostCells) && !deadline.is_over(); count *= 2) {
-    auto cells = cells_of(tone, band, count);
-    if (!cells) {
-      continue;
+    std::optional<PhaseLoop> best;
+    for (const FloquetGauge gauge : {FloquetGauge::by_mode, FloquetGauge::by_state}) {
+      auto cells = cells_of(tone, band, count, gauge);
+      if (!cells) {
+        continue;
+      }
+      PhaseLoop loop;
+      loop.cells_ = *std::move(cells);
+      loop.tracker_ = tracker;
+      loop.recursion_ = std::make_shared<trackers::Recursion>(*tracker.recursion);
+      loop.recursion_->step = with_vanishing_factors_last(tracker.recursion->step,
+                                                          registers_on(tracker, tone, loop.cells_.front()));
+      loop.tracker_.recursion = loop.recursion_.get();
+      if (loop.find_gridding(with_slew) &&
+          (!best || loop.probe().missed_share() < best->probe().missed_share())) {
+        best = std::move(loop);
+      }
     }
-    PhaseLoop loop;
-    loop.cells_ = *std::move(cells);
-    loop.tracker_ = tracker;
-    loop.recursion_ = std::make_shared<trackers::Recursion>(*tracker.recursion);
-    loop.recursion_->step = with_vanishing_factors_last(tracker.recursion->step,
-                                                        registers_on(tracker, tone, loop.cells_.front()));
-    loop.tracker_.recursion = loop.recursion_.get();
-    if (loop.find_gridding(with_slew)) {
-      return loop;
+    if (best) {
+      return best;
     }
   }
   return std::nullopt;

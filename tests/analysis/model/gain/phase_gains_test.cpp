@@ -17,6 +17,7 @@ namespace veritrack {
 namespace {
 
 constexpr double kLow = 0.29, kHigh = 0.31;
+constexpr auto kGauge = model::FloquetGauge::by_mode;
 
 /// Of part number `part` at a constant frequency, or of all parts with a slew.
 std::optional<model::PhaseGains> gains_of(const model::TrackerModel& tracker, const model::FloquetCell& cell,
@@ -77,7 +78,7 @@ double attack(const test::Example& loop, const model::FloquetCell& cell, double 
 TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly reach") {
   const test::Example loop(test::phase_locked_loop(0.02));
   const model::TrackedTone tone = test::tone_of(loop.tracker);
-  const auto cell = model::propose_floquet_cell(tone, kLow, kHigh);
+  const auto cell = model::propose_floquet_cell(tone, kGauge, kLow, kHigh);
   REQUIRE(cell);
   const rigor::UpwardRounding upward;
   const auto bounds = gains_of(loop.model, *cell, {64, 1024, 32}, 0);
@@ -109,7 +110,7 @@ TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly r
 
 TEST_CASE("starts and a frequency that moves stay within their bounds") {
   const test::Example loop(test::phase_locked_loop(0.02));
-  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
+  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kGauge, kLow, kHigh);
   REQUIRE(cell);
   constexpr double kNoise = 0.01, kSlew = 1e-6, kOff = 0.002;
   const rigor::UpwardRounding upward;
@@ -148,7 +149,7 @@ TEST_CASE("starts and a frequency that moves stay within their bounds") {
 
 TEST_CASE("too much noise, and a horizon that is too short, bound nothing") {
   const test::Example loop(test::phase_locked_loop(0.02));
-  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
+  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kGauge, kLow, kHigh);
   REQUIRE(cell);
   const rigor::UpwardRounding upward;
   const auto bounds = gains_of(loop.model, *cell, {64, 1024, 8}, 3);
@@ -161,7 +162,7 @@ TEST_CASE("too much noise, and a horizon that is too short, bound nothing") {
 
 TEST_CASE("a wrong basis, matrix or curve is noticed") {
   const test::Example loop(test::phase_locked_loop(0.02));
-  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kLow, kHigh);
+  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kGauge, kLow, kHigh);
   REQUIRE(cell);
   const rigor::UpwardRounding upward;
   const auto right = errors_of(gains_of(loop.model, *cell, {64, 1024, 8}, 3), 0.02);

@@ -86,8 +86,8 @@ std::optional<std::vector<FloquetCell>> cells_of(const TrackedTone& tone, const 
 
 /// After how many samples the powers of the matrix are negligible; 0: after too many.
 std::size_t horizon_of(const FloquetCell& cell) {
-  constexpr std::size_t kMost = 1U << 14U;
-  constexpr double kNegligible = 1e-6;
+  constexpr std::size_t kMost = 1U << 16U;
+  constexpr double kNegligible = 1e-4;
   const std::size_t n = cell.states();
   std::vector<double> power(n * n, 0.0);
   std::vector<double> largest(n * n, 0.0);

@@ -116,6 +116,26 @@ class Refinement {
     return change < 1e-7;
   }
 
+  /// Turns the two columns of each pair so that the diagonal of its block has equal entries: two close modes
+  /// have a block like m, s; 0, m then, whose powers have no entries that cancel.
+  void even_out_pairs() {
+    look();
+    for (const auto& [first, size] : groups()) {
+      if (size != 2) {
+        continue;
+      }
+      const auto block = mean_.block(first, first, 2, 2);
+      const double angle = 0.5 * std::atan2(block(1, 1) - block(0, 0), block(0, 1) + block(1, 0));
+      for (int j = 0; j < grid_->size(); ++j) {
+        auto there = matrix_at(basis_.values, j, n_);
+        const Eigen::VectorXd one = there.col(first);
+        const Eigen::VectorXd two = there.col(first + 1);
+        there.col(first) = std::cos(angle) * one + std::sin(angle) * two;
+        there.col(first + 1) = std::cos(angle) * two - std::sin(angle) * one;
+      }
+    }
+  }
+
   /// Makes it depend on the frequency smoothly: the mean of reference^-1 P has the unit matrix in the block
   /// of each group, and that of the others is the unit matrix at every phase.
   void normalise(const FloquetBasis& reference) {
@@ -294,6 +314,9 @@ std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
   Refinement reference(tone, curves[middle], grid, harmonics, std::move(modes));
   if (!reference.solve()) {
     return std::nullopt;
+  }
+  if (gauge == FloquetGauge::by_mode) {
+    reference.even_out_pairs();
   }
   std::vector<FloquetNode> nodes(curves.size());
   nodes[middle] = reference.node();

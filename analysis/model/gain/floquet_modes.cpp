@@ -115,7 +115,8 @@ class Modes {
 
   /// p -> A(phi - omega) p(phi - omega), and its eigenfunctions with few harmonics.
   [[nodiscard]] std::vector<Mode> resolved() const {
-    constexpr double kEdge = 1e-12;
+    constexpr double kEdge = 1e-8;
+    constexpr double kFastest = 3.0;  // by a factor of e in a radian
     const int phases = grid_->size();
     const Eigen::MatrixXd back = grid_->shift(-omega_);
     Eigen::MatrixXd map(n_ * phases, n_ * phases);
@@ -128,7 +129,7 @@ class Modes {
     std::vector<Mode> modes;
     for (Index e = 0; e < found.values.size(); ++e) {
       const Complex value = found.values[e];
-      if (!(value.imag() >= 0.0)) {
+      if (!(value.imag() >= 0.0) || !(std::log(std::abs(value)) > -kFastest * omega_)) {
         continue;
       }
       const Eigen::VectorXcd vector = found.vectors.col(e);

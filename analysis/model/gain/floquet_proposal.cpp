@@ -102,6 +102,7 @@ class Refinement {
   /// False where it does not converge.
   bool solve() {
     constexpr int kMostSteps = 30;
+    constexpr double kEnough = 1e-6;  // what is left, also of harmonics that are not kept, is an error
     double change = INFINITY;
     for (int step = 0; step < kMostSteps; ++step) {
       look();
@@ -109,11 +110,11 @@ class Refinement {
       if (!(change < 1e6)) {
         return false;
       }
-      if (change < 1e-11 || (change < 1e-8 && change >= 0.5 * before)) {
+      if (change < 1e-11 || (change < kEnough && change >= 0.5 * before)) {
         break;
       }
     }
-    return change < 1e-7;
+    return change < kEnough;
   }
 
   /// Turns the two columns of each pair so that the diagonal of its block has equal entries: two close modes
@@ -301,7 +302,8 @@ class Refinement {
 std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
                                                       const std::vector<NodeCurve>& curves,
                                                       FloquetGauge gauge, int harmonics) {
-  const PhaseGrid coarse(harmonics);
+  constexpr int kCoarse = 24;
+  const PhaseGrid coarse(std::min(harmonics, kCoarse));
   const PhaseGrid grid(harmonics + harmonics / 2);
   const std::size_t middle = curves.size() / 2;
   FloquetBasis modes =
@@ -310,7 +312,7 @@ std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
   if (modes.modes() == 0) {
     return std::nullopt;
   }
-  modes.values = on_grid(harmonics_of(modes.values, harmonics), grid);
+  modes.values = on_grid(harmonics_of(modes.values, coarse.harmonics()), grid);
   Refinement reference(tone, curves[middle], grid, harmonics, std::move(modes));
   if (!reference.solve()) {
     return std::nullopt;
@@ -380,7 +382,8 @@ PhaseSeries series_of(const std::vector<Eigen::MatrixXcd>& powers, Eigen::Index 
 
 std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, FloquetGauge gauge, double low,
                                                 double high) {
-  constexpr int kHarmonics = 24;
+  constexpr int kFewestHarmonics = 24;
+  constexpr int kMostHarmonics = 64;
   constexpr double kNegligible = 1e-13;
   const rigor::NearestRounding nearest;
   const double middle = 0.5 * (low + high);
@@ -392,7 +395,11 @@ std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, Floquet
   if (!fit) {
     return std::nullopt;
   }
-  const auto nodes = floquet_nodes(tone, fit->nodes, gauge, kHarmonics);
+  int harmonics = kFewestHarmonics;  // as many as the curve has
+  for (const NodeCurve& each : fit->nodes) {
+    harmonics = std::clamp(static_cast<int>(each.harmonics.cols()) - 1, harmonics, kMostHarmonics);
+  }
+  const auto nodes = floquet_nodes(tone, fit->nodes, gauge, harmonics);
   if (!nodes) {
     return std::nullopt;
   }

@@ -220,15 +220,20 @@ class Modes {
     return least;
   }
 
-  /// Modes whose multipliers are close, against how fast they decay, get an orthonormal basis together.
+  /// Modes that are nearly parallel, or whose multipliers are close and that are not nearly orthogonal, get
+  /// an orthonormal basis together.
   [[nodiscard]] Columns grouped(const std::vector<Mode>& modes) const {
-    constexpr double kClose = 0.2;
+    constexpr double kClose = 0.2;  // against how fast they decay
+    constexpr double kAligned = 0.9;
+    constexpr double kAlignedIfClose = 0.3;
     std::vector<int> group(modes.size());
     std::iota(group.begin(), group.end(), 0);
     for (std::size_t a = 0; a < modes.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         const double decay = 1.0 - std::max(std::abs(modes[a].multiplier), std::abs(modes[b].multiplier));
-        if (std::abs(modes[a].multiplier - modes[b].multiplier) < kClose * std::fabs(decay)) {
+        const bool are_close =
+            std::abs(modes[a].multiplier - modes[b].multiplier) < kClose * std::fabs(decay);
+        if (alignment(modes[a].values, modes[b].values) > (are_close ? kAlignedIfClose : kAligned)) {
           std::replace(group.begin(), group.end(), group[a], group[b]);
         }
       }
@@ -259,6 +264,12 @@ class Modes {
   }
 
   /// As functions of the phase.
+  static double alignment(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+    const double along =
+        std::max(std::abs(a.cwiseProduct(b.conjugate()).sum()), std::abs(a.cwiseProduct(b).sum()));
+    return along / (a.norm() * b.norm());
+  }
+
   void orthonormalise(std::vector<Eigen::MatrixXd>& members) const {
     for (std::size_t c = 0; c < members.size(); ++c) {
       for (int round = 0; round < 2; ++round) {

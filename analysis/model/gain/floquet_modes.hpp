@@ -8,9 +8,9 @@
 
 namespace veritrack::model {
 
-/// Which modes share a block of the constant matrix, and their basis: such as cannot be told apart (a pair of
-/// complex ones, or close multipliers), orthonormal; or all, so that the mean of the basis over the phase is
-/// the unit matrix. Which gives better bounds depends on the loop.
+/// Which modes share a block of the constant matrix, and their basis: such as are nearly parallel and pairs
+/// of complex ones, orthonormal; or all, so that the mean of the basis over the phase is the unit matrix.
+/// Which gives better bounds depends on the loop.
 enum class FloquetGauge { by_mode, by_state };
 
 /// A basis over the phase. The first `modes` columns are modes, in groups; the others are constant.

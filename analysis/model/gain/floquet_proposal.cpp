@@ -8,6 +8,7 @@
 
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_matrix.hpp"
+#include "analysis/rigor/spectral_radius.hpp"
 
 namespace veritrack::model {
 
@@ -79,7 +80,7 @@ Eigen::MatrixXd on_grid(const Eigen::MatrixXcd& harmonics, const PhaseGrid& grid
 }
 
 /// Newton's method for P with P(phi + omega)^-1 A(phi) P(phi) = [L, 0; 0, F(phi)], L constant and of one
-/// block for each group of modes.
+/// block for each group of modes, where their multipliers differ.
 class Refinement {
  public:
   /// Of the basis no more than these harmonics are kept; the grid resolves half as many again, because the
@@ -218,6 +219,23 @@ class Refinement {
     return size;
   }
 
+  /// Whether the multipliers of two groups differ. What mixes those that do not stays in the matrix.
+  [[nodiscard]] bool are_apart(const Group& a, const Group& b) const {
+    constexpr double kClose = 0.2;  // against how fast they decay
+    if (a.first == b.first) {
+      return false;
+    }
+    for (const auto& one : rigor::eigenvalues_by_size(mean_.block(a.first, a.first, a.size, a.size))) {
+      for (const auto& two : rigor::eigenvalues_by_size(mean_.block(b.first, b.first, b.size, b.size))) {
+        const double decay = 1.0 - std::max(std::abs(one), std::abs(two));
+        if (!(std::abs(one - two) > kClose * std::fabs(decay))) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
   /// What changes with the phase, and what mixes groups.
   bool separate_modes(Eigen::MatrixXd& factor) const {
     const Eigen::MatrixXcd waves = harmonics_of(seen_, harmonics_);
@@ -227,7 +245,7 @@ class Refinement {
       for (const Group& to : groups()) {
         for (const Group& from : groups()) {
           Eigen::MatrixXcd x = wave.block(to.first, from.first, to.size, from.size);
-          if ((h == 0 && to.first == from.first) || !(x.cwiseAbs().maxCoeff() > 1e-17)) {
+          if ((h == 0 && !are_apart(to, from)) || !(x.cwiseAbs().maxCoeff() > 1e-17)) {
             continue;
           }
           if (!solve_sylvester(std::polar(1.0, h * omega_), mean_.block(to.first, to.first, to.size, to.size),

@@ -41,14 +41,13 @@ std::vector<double> curve_state(const FloquetCell& cell, double phase) {
   return state;
 }
 
-/// The registers of the step at some phases.
+/// The registers of the step in the middles of cells of phases: the checker looks at the same places.
 std::vector<std::vector<double>> registers_on(const TrackerModel& tracker, const TrackedTone& tone,
-                                              const FloquetCell& cell) {
-  constexpr int kPhases = 32;
+                                              const FloquetCell& cell, std::size_t phases) {
   const rigor::NearestRounding nearest;
   std::vector<std::vector<double>> all;
-  for (int p = 0; p < kPhases; ++p) {
-    const double phase = 2.0 * std::numbers::pi * p / kPhases;
+  for (std::size_t g = 0; g < phases; ++g) {
+    const double phase = std::numbers::pi * static_cast<double>(2 * g + 1) / static_cast<double>(phases);
     std::vector<double> inputs;
     for (const Interval& constant : tracker.constants) {
       inputs.push_back(rigor::midpoint(constant));
@@ -131,7 +130,6 @@ bool PhaseLoop::find_gridding(bool with_slew) {
   const std::size_t most_parts = with_slew ? 128 : 256;
   constexpr double kFine = 0.1;  // of the gain is missed
   constexpr double kBetter = 0.9;
-  gridding_.phases = with_slew ? 64 : 128;  // with a slew all parts are kept, and all look at each other
   gridding_.horizon = 0;
   for (const FloquetCell& each : cells_) {
     const std::size_t horizon = horizon_of(each);
@@ -175,10 +173,12 @@ std::optional<PhaseLoop> PhaseLoop::make(const TrackerModel& tracker, const Trac
       }
       PhaseLoop loop;
       loop.cells_ = *std::move(cells);
+      // With a slew all parts are kept, and all look at each other.
+      loop.gridding_.phases = with_slew ? 64 : 128;
       loop.tracker_ = tracker;
       loop.recursion_ = std::make_shared<trackers::Recursion>(*tracker.recursion);
-      loop.recursion_->step = with_vanishing_factors_last(tracker.recursion->step,
-                                                          registers_on(tracker, tone, loop.cells_.front()));
+      loop.recursion_->step = with_vanishing_factors_last(
+          tracker.recursion->step, registers_on(tracker, tone, loop.cells_.front(), loop.gridding_.phases));
       loop.tracker_.recursion = loop.recursion_.get();
       if (loop.find_gridding(with_slew) &&
           (!best || loop.probe().missed_share() < best->probe().missed_share())) {

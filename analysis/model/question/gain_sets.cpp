@@ -21,6 +21,9 @@ using rigor::Interval;
 
 namespace {
 
+/// For a checker that rounds otherwise, rad/sample.
+constexpr double kRounding = 1e-13;
+
 /// For a checker whose bounds are cruder, above all of what turns with the signal.
 double widened(const GainBounds& gains, double bound) {
   return rigor::mul_up(bound, gains.network().has_ripples ? 1.01 : 1.001);
@@ -61,6 +64,11 @@ class GainSets {
     return bounds && widened(*gains_, widened(*gains_, bounds->for_ever)) < half_distance_;
   }
 
+  /// Certainly above the upper limit, which is 0 without noise.
+  [[nodiscard]] double above_limit(double long_run) const {
+    return rigor::add_up(widened(*gains_, long_run), kRounding);
+  }
+
   /// Of starts in the steady state.
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance) const {
     ProvedSet set;
@@ -73,7 +81,7 @@ class GainSets {
     set.tubes.is_complete = bounds.has_value();
     if (bounds) {
       set.frequency_error = widened(*gains_, bounds->for_ever);
-      set.settled_error = widened(*gains_, bounds->long_run);
+      set.settled_error = above_limit(bounds->long_run);
     } else {
       set.tubes.reasons.emplace_back("the bounds of the errors do not close: too much noise or slew");
     }
@@ -97,12 +105,11 @@ class GainSets {
     if (!bounds) {
       return;
     }
-    constexpr double kRoom = 1e-13;  // for a checker that rounds otherwise
     const Interval& bias = gains_->network().bias;
-    const double mean = rigor::add_up(widened(*gains_, bounds->mean), kRoom);
+    const double mean = rigor::add_up(widened(*gains_, bounds->mean), kRounding);
     set.bias = bias + Interval::from_bounds(-mean, mean);
     const double largest = rigor::sub_up(bounds->long_run, rigor::magnitude(bias));
-    set.ripple = rigor::add_up(2.0 * widened(*gains_, largest), kRoom);
+    set.ripple = rigor::add_up(2.0 * widened(*gains_, largest), kRounding);
   }
 
   /// The largest frequency error at the start, with the other states in the steady state.
@@ -137,7 +144,7 @@ class GainSets {
     };
     if (const auto bounds = from(1.0)) {
       set.frequency_error = widened(*gains_, bounds->for_ever);
-      set.settled_error = widened(*gains_, bounds->long_run);
+      set.settled_error = above_limit(bounds->long_run);
       return;
     }
     const double share = largest_with(1.0, [&](double each) { return from(each).has_value(); });

@@ -88,9 +88,11 @@ class Reordering {
       return false;
     }
     const Instruction& each = at(place);
+    const auto is_below = [&](int term) {
+      return sizes_[static_cast<std::size_t>(place)] < kSmall * sizes_[static_cast<std::size_t>(term)];
+    };
     return (each.operation == Operation::add || each.operation == Operation::subtract) &&
-           sizes_[static_cast<std::size_t>(place)] < kSmall * (sizes_[static_cast<std::size_t>(each.first)] +
-                                                               sizes_[static_cast<std::size_t>(each.second)]);
+           is_below(each.first) && is_below(each.second);
   }
   int copy(Instruction each) {
     for (int* operand : {&each.first, &each.second, &each.third}) {

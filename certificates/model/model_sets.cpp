@@ -196,7 +196,7 @@ class SharedProgress {
 
 /// Adds the proof by gains that depend on the phase, if something is better with it.
 void add_phases(const model::SetQuestion& question, ModelSets& sets) {
-  sets.phases = model::prove_by_phase_gains(question);
+  sets.phases = model::prove_by_phase_gains(question, sets.starts.is_proved() ? sets.starts.reach : 0.0);
   const bool is_any =
       sets.phases && (sets.best().is_by_gains ||
                       (sets.phases->noise && (!sets.noise || !sets.noise->is_proved() ||

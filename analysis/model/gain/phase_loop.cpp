@@ -127,7 +127,7 @@ std::optional<PhaseGains> PhaseLoop::gains_of(std::size_t part) const {
 
 bool PhaseLoop::find_gridding(bool with_slew) {
   constexpr std::size_t kFewestParts = 8;
-  const std::size_t most_parts = with_slew ? 128 : 256;
+  const std::size_t most_parts = (with_slew ? 128 : 256) / cells_.size();
   constexpr double kFine = 0.1;  // of the gain is missed
   constexpr double kBetter = 0.9;
   gridding_.horizon = 0;

@@ -16,8 +16,8 @@ using rigor::Interval;
 
 namespace {
 
-/// Near the linear recursion: then tubes are hardly better.
-constexpr double kNear = 1.6;
+/// Farther from the linear recursion tubes are better.
+constexpr double kNear = 2.5;
 
 /// For a checker whose bounds are cruder.
 double with_room(double bound) {
@@ -26,8 +26,8 @@ double with_room(double bound) {
 
 class PhaseSets {
  public:
-  PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance)
-      : question_(&question), loop_(&loop), half_distance_(half_distance) {}
+  PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance, double known_reach)
+      : question_(&question), loop_(&loop), half_distance_(half_distance), known_reach_(known_reach) {}
 
   /// Empty where the bounds are far from those of the linear recursion.
   [[nodiscard]] std::optional<PhaseProof> all() {
@@ -38,9 +38,6 @@ class PhaseSets {
     }
     find_joint();
     if (!find_sizes() || (question_->slew > 0.0 && !assumed_)) {
-      return std::nullopt;
-    }
-    if (!(assumed_->long_run <= kNear * (assumed_->linear + loop_->probe().largest_bias()))) {
       return std::nullopt;
     }
     return proof();
@@ -124,10 +121,12 @@ class PhaseSets {
         return is_lock(part.at_noise);
       });
     }
-    part.reach = down_to(probed_reach_, [&](double error) {
-      part.at_reach = from_error(gains, error);
-      return is_lock(part.at_reach);
-    });
+    if (probed_reach_ > known_reach_) {
+      part.reach = down_to(probed_reach_, [&](double error) {
+        part.at_reach = from_error(gains, error);
+        return is_lock(part.at_reach);
+      });
+    }
     return true;
   }
 
@@ -225,7 +224,7 @@ class PhaseSets {
 
   const SetQuestion* question_;
   const PhaseLoop* loop_;
-  double half_distance_;
+  double half_distance_, known_reach_;
   double probed_noise_ = 0.0, probed_reach_ = 0.0;
   std::optional<PhaseErrors> still_, assumed_, from_starts_, at_noise_, at_reach_;
   double noise_ = 0.0, reach_ = 0.0;
@@ -244,7 +243,8 @@ double samples_below(const PhaseProof& proof, const Interval& target) {
   return INFINITY;
 }
 
-std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, std::string* reason) {
+std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, double known_reach,
+                                               std::string* reason) {
   const Interval& band = question.whole_band;
   const auto nothing = [&](const std::string& why) -> std::optional<PhaseProof> {
     if (reason != nullptr) {
@@ -265,7 +265,7 @@ std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, std:
       return nothing("no basis was found in which its errors have constant coefficients and decay");
     }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
-    auto proof = PhaseSets(question, *loop, half_distance).all();
+    auto proof = PhaseSets(question, *loop, half_distance, known_reach).all();
     return proof ? std::move(proof)
                  : nothing("the bounds of its errors are far from those of the linear loop");
   } catch (const NoFrame& objection) {

@@ -1,4 +1,5 @@
 #include "checker/model/gain/phase_bounds.hpp"
+#include "checker/numbers/threads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -119,6 +120,30 @@ PhaseTable below(const PhaseTable& bounds) {
   return result;
 }
 
+/// `before`: bounds of another group, to begin near them; or null. False where there are none.
+bool bound_group(const PhaseLoopEvidence& evidence, const std::shared_ptr<const PhaseGroup>& group,
+                 double noise, const std::vector<double>& start, const PhaseTable* before,
+                 GroupErrors& errors) {
+  if (!group->is_certain()) {
+    return false;
+  }
+  auto solver = std::make_unique<PhaseSolver>(evidence, *group, noise, start);
+  std::optional<PhaseTable> bounds;
+  if (before != nullptr) {
+    const PhaseTable near = below(*before);
+    bounds = solver->for_ever(&near);
+  }
+  if (!bounds) {
+    bounds = solver->for_ever(nullptr);
+  }
+  if (!bounds) {
+    return false;
+  }
+  std::vector<double> late = solver->in_long_run(*bounds)[evidence.structure.error_form];
+  errors = {group, *std::move(bounds), std::move(late), std::move(solver)};
+  return true;
+}
+
 }  // namespace
 
 const PhaseBounds::Groups& PhaseBounds::groups(double slew) const {
@@ -127,20 +152,21 @@ const PhaseBounds::Groups& PhaseBounds::groups(double slew) const {
   }
   groups_.clear();
   slew_of_groups_ = slew;
-  std::vector<const PhasePart*> together;
+  std::vector<std::vector<const PhasePart*>> members;
   for (const std::vector<PhasePart>& cell : evidence_.cells) {
     for (const PhasePart& part : cell) {
-      together.push_back(&part);
-      if (slew == 0.0) {
-        groups_.push_back(std::make_shared<const PhaseGroup>(std::exchange(together, {}), evidence_.phases,
-                                                             evidence_.horizon, slew));
+      if (members.empty() || slew == 0.0) {
+        members.emplace_back();
       }
+      members.back().push_back(&part);
     }
   }
-  if (slew != 0.0) {
-    groups_.push_back(
-        std::make_shared<const PhaseGroup>(std::move(together), evidence_.phases, evidence_.horizon, slew));
-  }
+  groups_.resize(members.size());
+  first_failure(members.size(), [&](std::size_t group) {
+    groups_[group] = std::make_shared<const PhaseGroup>(std::move(members[group]), evidence_.phases,
+                                                        evidence_.horizon, slew);
+    return true;
+  });
   return groups_;
 }
 
@@ -174,28 +200,22 @@ std::unique_ptr<FrequencyErrors> PhaseBounds::errors(const Ball& noise, const Ba
       (most_slew != 0.0 && evidence_.cells.size() != 1)) {
     return nullptr;
   }
-  std::vector<GroupErrors> errors;
-  for (const std::shared_ptr<const PhaseGroup>& group : groups(most_slew)) {
-    if (!group->is_certain()) {
-      return nullptr;
+  constexpr std::size_t kRun = 8;  // groups, whose bounds are near those of the one before
+  const Groups& all = groups(most_slew);
+  std::vector<GroupErrors> errors(all.size());
+  const auto bound_run = [&](std::size_t run) {
+    for (std::size_t g = run * kRun; g < std::min(all.size(), (run + 1) * kRun); ++g) {
+      if (!bound_group(evidence_, all[g], most_noise, deviations,
+                       g > run * kRun ? &errors[g - 1].for_ever : nullptr, errors[g])) {
+        return false;
+      }
     }
-    auto solver = std::make_unique<PhaseSolver>(evidence_, *group, most_noise, deviations);
-    std::optional<PhaseTable> near;
-    if (!errors.empty()) {
-      near = below(errors.back().for_ever);
-    }
-    std::optional<PhaseTable> bounds = solver->for_ever(near ? &*near : nullptr);
-    if (!bounds && near) {
-      bounds = solver->for_ever(nullptr);
-    }
-    if (!bounds) {
-      return nullptr;
-    }
-    std::vector<double> late = solver->in_long_run(*bounds)[evidence_.structure.error_form];
-    errors.push_back({group, *std::move(bounds), std::move(late), std::move(solver)});
-  }
-  return errors.empty() ? nullptr
-                        : std::make_unique<PhaseErrors>(std::move(errors), evidence_.structure.error_form);
+    return true;
+  };
+  const std::size_t runs = (all.size() + kRun - 1) / kRun;
+  return runs == 0 || first_failure(runs, bound_run) < runs
+             ? nullptr
+             : std::make_unique<PhaseErrors>(std::move(errors), evidence_.structure.error_form);
 }
 
 std::vector<Ball> PhaseBounds::starts_within(const Ball& reach) const {

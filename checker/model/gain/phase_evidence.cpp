@@ -6,6 +6,7 @@
 #include "checker/model/jet.hpp"
 #include "checker/model/series_evidence.hpp"
 #include "checker/model/turn_count.hpp"
+#include "checker/numbers/threads.hpp"
 
 namespace veritrack::checker {
 
@@ -158,10 +159,11 @@ std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedMo
                                                 steady_points(model, cells.front(), evidence.phases)),
                         recursion.states(), recursion.samples());
     for (const PhaseCell& cell : cells) {
-      evidence.cells.emplace_back();
-      for (std::size_t part = 0; part < cell.parts; ++part) {
-        evidence.cells.back().push_back(phase_part(evidence.structure, model, cell, part, evidence.phases));
-      }
+      evidence.cells.emplace_back(cell.parts);
+      first_failure(cell.parts, [&](std::size_t part) {
+        evidence.cells.back()[part] = phase_part(evidence.structure, model, cell, part, evidence.phases);
+        return true;
+      });
     }
     auto bounds = std::make_unique<PhaseBounds>(std::move(evidence));
     if (bounds->is_certain(design.slew)) {

@@ -1,7 +1,10 @@
 #include "checker/model/gain/phase_group.hpp"
 
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "checker/numbers/threads.hpp"
 
 namespace veritrack::checker {
 
@@ -28,7 +31,8 @@ PhaseGroup::PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, 
     }
     all.push_back(*std::move(wide_part));
   }
-  for (std::size_t number = 0; number < parts_.size(); ++number) {
+  std::vector<std::optional<PhaseKernels>> kernels(parts_.size());
+  const auto find_kernels = [&](std::size_t number) {
     const PhasePart& part = *parts_[number];
     PhaseLoop loop;
     loop.phases = phases;
@@ -42,10 +46,15 @@ PhaseGroup::PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, 
     loop.stages = stages(all, number);
     loop.has_one_size.assign(part.inputs.size(), false);
     loop.has_one_size[PhasePart::kNoise] = loop.has_one_size[PhasePart::kSlew] = true;
-    kernels_.emplace_back(loop);
-    if (!kernels_.back().is_valid()) {
-      return;
-    }
+    kernels[number].emplace(loop);
+    return kernels[number]->is_valid();
+  };
+  if (first_failure(kernels.size(), find_kernels) < kernels.size()) {
+    return;
+  }
+  kernels_.reserve(kernels.size());
+  for (std::optional<PhaseKernels>& each : kernels) {
+    kernels_.push_back(*std::move(each));
   }
   is_certain_ = close(all);
 }

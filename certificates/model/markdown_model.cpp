@@ -214,6 +214,7 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   }
   return design_section(certificate, tables, model) + model_lock_section(certificate) +
          (model_sets(certificate).phases ? model_phases_section(certificate) : std::string()) +
+         (model_sets(certificate).averages ? model_averages_section(certificate) : std::string()) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
          recursion_section(model) + coverage_section(tables, model_sets(certificate).bounds_covariance);
 }

@@ -1,10 +1,14 @@
 #include "certificates/model/markdown_model_phases.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <vector>
 
+#include "analysis/rigor/spectral_radius.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/markdown_model_gains.hpp"
 #include "certificates/model/model_sets.hpp"
@@ -14,11 +18,36 @@ namespace veritrack::certificates {
 
 namespace {
 
+/// How fast the errors decay to first order, in the middle of the band. The oscillation of a mode is left
+/// out: it depends on whether one turns with the signal.
+std::string modes_of(const model::PhaseProof& proof, const std::optional<Number>& sample_rate) {
+  const model::FloquetCell& cell = proof.cells[proof.cells.size() / 2];
+  const auto n = static_cast<Eigen::Index>(cell.states());
+  Eigen::MatrixXd matrix(n, n);
+  for (Eigen::Index i = 0; i < n * n; ++i) {
+    matrix(i / n, i % n) = cell.matrix[static_cast<std::size_t>(i)].front();
+  }
+  std::vector<std::string> times;
+  for (const std::complex<double>& each : rigor::eigenvalues_by_size(matrix)) {
+    const double samples = -1.0 / std::log(std::abs(each));
+    if (samples > 0.5) {
+      times.push_back(sample_rate
+                          ? fmt::format("{:.3g} ms", 1e3 * samples / rigor::midpoint(sample_rate->value))
+                          : fmt::format("{:.3g}", samples));
+    }
+  }
+  return fmt::format(
+      "To first order, errors of the {} states decay in modes with the time constants {}{} (in "
+      "the middle of the band, to three digits, not proved); what is faster than half a sample "
+      "is left out.\n\n",
+      n, fmt::join(times, ", "), sample_rate ? "" : " samples");
+}
+
 /// What an engineer can improve.
 std::string phase_budget_table(const model::PhaseErrors& errors, const ModelSets& sets,
                                const FrequencyUnits& units) {
   const bool is_moving = sets.assumed && sets.assumed->tubes.slew > 0.0;
-  const double rest = std::max(0.0, errors.long_run - errors.linear);
+  const double rest = std::max(0.0, errors.long_run - errors.linear - errors.bias);
   const auto share = [&](double part) { return fmt::format("{:.3g} %", 100.0 * part / errors.long_run); };
   return "The frequency error in the long run, by cause (each at most; they are worst cases of the same "
          "sample):\n\n" +
@@ -26,7 +55,8 @@ std::string phase_budget_table(const model::PhaseErrors& errors, const ModelSets
              {"Cause", "Frequency error", "Share"},
              {{is_moving ? "noise and slew, to first order" : "noise, to first order",
                units.at_most(errors.linear), share(errors.linear)},
-              {"curvature of the loop's functions at these errors, ripple, and the coarseness of the grid",
+              {"bias and ripple of the steady state", units.at_most(errors.bias), share(errors.bias)},
+              {"curvature of the loop's functions at these errors, and the coarseness of the grid",
                units.at_most(rest), share(rest)},
               {"together", units.at_most(errors.long_run), "100 %"}}) +
          "\n";
@@ -37,14 +67,15 @@ std::string phase_budget_table(const model::PhaseErrors& errors, const ModelSets
 std::string model_phases_section(const Certificate& certificate) {
   const ModelSets& sets = model_sets(certificate);
   const model::PhaseProof& proof = *sets.phases;
-  const FrequencyUnits units(model_tables(certificate.design).assume.sample_rate);
+  const std::optional<Number>& sample_rate = model_tables(certificate.design).assume.sample_rate;
+  const FrequencyUnits units(sample_rate);
   return "## The errors of this loop over the phase\n\nIts steady state is a curve over the phase of the "
          "signal, and what "
          "an "
          "error does depends on the phase. In a basis that turns with the signal the coefficients are "
          "constant. Each bound is the sum of the worst that every earlier sample can contribute at the phase "
          "at which it came in, and the largest of all phases and frequencies.\n\n" +
-         phase_budget_table(proof.errors, sets, units) +
+         modes_of(proof, sample_rate) + phase_budget_table(proof.errors, sets, units) +
          gain_limits_table(proof.noise ? &*proof.noise : nullptr, nullptr, proof.starts, units) +
          fmt::format(
              "The band is cut into {} parts for this, a turn of the phase into {}, and {} earlier samples "
@@ -53,6 +84,20 @@ std::string model_phases_section(const Certificate& certificate) {
              "state in which the loop stays without noise, up to rounding. The proof is in "
              "`docs/gain-proof.md` of the program's sources, section 10.\n\n",
              proof.cells.size() * proof.gridding.parts, proof.gridding.phases, proof.gridding.horizon);
+}
+
+std::string model_averages_section(const Certificate& certificate) {
+  const model::AveragesProof& averages = *model_sets(certificate).averages;
+  const FrequencyUnits units(model_tables(certificate.design).assume.sample_rate);
+  return "## More noise, and starts further off\n\nWhat turns with the signal in this loop is known, and can "
+         "be averaged. The bounds of errors in the long run are worse then, but less is assumed of them, so "
+         "that more is tolerated:\n\n" +
+         gain_limits_table(averages.noise ? &*averages.noise : nullptr, nullptr, averages.starts, units) +
+         "A statement that the tracker tolerates noise, or that a set contains frequency errors, is proved "
+         "in "
+         "this way where it says more. The proof is in `docs/gain-proof.md` of the program's sources, "
+         "section "
+         "9.\n\n";
 }
 
 }  // namespace veritrack::certificates

@@ -201,16 +201,16 @@ class ModelClaims {
     claim.verdict = Verdict::proved;
     return claim;
   }
-  /// Beside tubes, a claim by gains says so.
+  /// Beside tubes, a claim by another proof says so.
   [[nodiscard]] Claim by(const ProvedSet& set, Claim claim) const {
-    if (sets_->phases && set.is_by_gains) {
-      claim.values.emplace_back("by", "gains");
+    if (!sets_->gains && set.is_without_tubes()) {
+      claim.values.emplace_back("by", set.proof == ProvedSet::Proof::averages ? "averages" : "gains");
     }
     return claim;
   }
   /// " (by the set "assumed" of the certificate)", for a set that was made for something else.
   [[nodiscard]] std::string by_set(const ProvedSet& set, const char* usual) const {
-    return sets_->gains || set.is_by_gains || set.tubes.name == usual
+    return sets_->gains || set.is_without_tubes() || set.tubes.name == usual
                ? std::string()
                : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
   }
@@ -270,7 +270,7 @@ class ModelClaims {
     claim.statement +=
         fmt::format(", the tracker tolerates noise up to {}{}: a certified invariant set exists{}", noise,
                     by_set(*limits.noise.set, "noise"), in_lock(*limits.noise.set));
-    if (limits.reach.set != nullptr && limits.reach.set->is_by_gains != limits.noise.set->is_by_gains) {
+    if (limits.reach.set != nullptr && limits.reach.set->proof != limits.noise.set->proof) {
       add_part(claim, limits.part);
       add(by(*limits.noise.set, std::move(claim)));
       add_reach(limits);
@@ -465,7 +465,7 @@ class ModelClaims {
     if (sets_->gains) {
       return model::samples_below(*sets_->gains, target.value);
     }
-    if (deciding_->is_by_gains) {
+    if (deciding_->is_without_tubes()) {
       return model::samples_below(*sets_->phases, target.value);
     }
     const Model model = make_model(tables_->model, tables_->assume.signal);
@@ -514,13 +514,13 @@ class ModelClaims {
   }
   [[nodiscard]] bool guaranteed() const { return covers_assumptions() && keeps_starts(); }
   [[nodiscard]] bool settles() const {
-    return deciding_->is_by_gains || sets_->long_run ||
+    return deciding_->is_without_tubes() || sets_->long_run ||
            std::all_of(deciding_->tubes.tubes.begin(), deciding_->tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
   [[nodiscard]] double settled_error() const {
-    return sets_->long_run && !deciding_->is_by_gains ? sets_->long_run->settled_error
-                                                      : deciding_->settled_error;
+    return sets_->long_run && !deciding_->is_without_tubes() ? sets_->long_run->settled_error
+                                                             : deciding_->settled_error;
   }
   [[nodiscard]] bool has_bias() const { return settled_set().is_proved() && knows_bias(); }
   /// By which the error without noise is known.
@@ -538,8 +538,9 @@ class ModelClaims {
   }
   /// `is_met`: the requirement is proved for the frequencies that the set covers.
   [[nodiscard]] std::string objection_of(const ProvedSet& set, bool is_met = false) const {
-    std::string text =
-        sets_->gains || set.is_by_gains ? "Not proved" : "No set of tubes was proved for the whole band";
+    std::string text = sets_->gains || set.is_without_tubes()
+                           ? "Not proved"
+                           : "No set of tubes was proved for the whole band";
     if (const Scope scope = scope_of(set); scope.part) {
       text = fmt::format("{} over {} to {} {} only", is_met ? "Proved" : "A set of tubes was proved",
                          scope.part->from, scope.part->to, words_.unit());
@@ -592,7 +593,7 @@ class ModelClaims {
                 : std::string());
   }
   [[nodiscard]] std::string guarantee_objection(bool is_met = false) const {
-    if (covers_assumptions() && (sets_->gains || deciding_->is_by_gains)) {
+    if (covers_assumptions() && (sets_->gains || deciding_->is_without_tubes())) {
       return std::isfinite(deciding_->start_share)
                  ? fmt::format(
                        "Of the assumed starts, only deviations {} times as large are proved to settle.",

@@ -259,6 +259,9 @@ Json model_evidence_json(const Certificate& certificate) {
   if (sets.phases) {
     evidence["gains"] = phase_gains_json(*sets.phases);
   }
+  if (sets.averages) {
+    evidence["averages"] = gains_json(sets.averages->proof);
+  }
   return evidence;
 }
 

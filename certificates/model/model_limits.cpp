@@ -43,6 +43,9 @@ Sets for_noise(const ModelSets& sets) {
       found.push_back(&*sets.phases->noise);
     }
   }
+  if (sets.averages && sets.averages->noise) {
+    found.push_back(&*sets.averages->noise);
+  }
   return found;
 }
 Sets for_slew(const ModelSets& sets) {
@@ -108,6 +111,9 @@ std::optional<ModelLimits> limits_of(const ModelSets& sets, const ModelAssumptio
   Sets all = in_order({&sets.assumed, &sets.noise, &sets.slew}, &sets.starts);
   if (sets.phases) {
     all.push_back(&sets.phases->starts);
+  }
+  if (sets.averages) {
+    all.push_back(&sets.averages->starts);
   }
   return ModelLimits{largest(for_noise(sets), place->range, noise_of), largest(all, place->range, reach_of),
                      place->part};

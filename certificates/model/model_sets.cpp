@@ -194,14 +194,36 @@ class SharedProgress {
   double done_ = 0.0;
 };
 
+double tolerated_noise(const std::optional<model::ProvedSet>& set) {
+  return set && set->is_proved() ? set->tubes.noise : 0.0;
+}
+double proved_reach(const model::ProvedSet& set) {
+  return set.is_proved() ? set.reach : 0.0;
+}
+
+/// Adds what gains on the average prove of noise and starts, where that is more than tubes have.
+void add_averages(model::ProvedSets by_gains, ModelSets& sets) {
+  if (!(tolerated_noise(by_gains.noise) > tolerated_noise(sets.noise)) &&
+      !(proved_reach(by_gains.starts) > proved_reach(sets.starts))) {
+    return;
+  }
+  by_gains.starts.proof = model::ProvedSet::Proof::averages;
+  if (by_gains.noise) {
+    by_gains.noise->proof = model::ProvedSet::Proof::averages;
+  }
+  sets.averages = {*std::move(by_gains.gains), std::move(by_gains.starts), std::move(by_gains.noise)};
+}
+
 /// Adds the proof by gains that depend on the phase, if something is better with it.
 void add_phases(const model::SetQuestion& question, ModelSets& sets) {
-  sets.phases = model::prove_by_phase_gains(question, sets.starts.is_proved() ? sets.starts.reach : 0.0);
-  const bool is_any =
-      sets.phases && (sets.best().is_by_gains ||
-                      (sets.phases->noise && (!sets.noise || !sets.noise->is_proved() ||
-                                              sets.phases->noise->tubes.noise > sets.noise->tubes.noise)));
-  if (!is_any) {
+  model::KnownLimits known{tolerated_noise(sets.noise), proved_reach(sets.starts)};
+  if (sets.averages) {
+    known = {std::max(known.noise, tolerated_noise(sets.averages->noise)),
+             std::max(known.reach, proved_reach(sets.averages->starts))};
+  }
+  sets.phases = model::prove_by_phase_gains(question, known);
+  if (sets.phases && !sets.best().is_without_tubes() &&
+      !(tolerated_noise(sets.phases->noise) > known.noise)) {
     sets.phases.reset();
   }
 }
@@ -255,6 +277,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     static_cast<model::ProvedSets&>(sets) = *std::move(by_gains);
     sets.bounds_covariance = false;
     return sets;
+  }
+  if (by_gains && by_gains->gains && by_gains->gains->gains) {
+    add_averages(*std::move(by_gains), sets);
   }
   add_phases(question, sets);
   if (follows_start) {

@@ -23,9 +23,9 @@ struct ModelSets : model::ProvedSets {
 
   /// Of a statement by this set.
   [[nodiscard]] StartsIn starts_in(const model::ProvedSet& set) const {
-    return gains || set.is_by_gains ? StartsIn::steady_state
-           : bounds_covariance      ? StartsIn::set_with_covariance
-                                    : StartsIn::set;
+    return gains || set.is_without_tubes() ? StartsIn::steady_state
+           : bounds_covariance             ? StartsIn::set_with_covariance
+                                           : StartsIn::set;
   }
 };
 

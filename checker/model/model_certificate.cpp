@@ -153,6 +153,26 @@ ByGains verified_gains(const Tree& certificate, const ModelDesign& design, const
   return found;
 }
 
+/// Gains on the average beside tubes, or nothing where there are none.
+std::unique_ptr<Gains> verified_averages(const Tree& certificate, const ModelDesign& design,
+                                         const TrackedModel& model, Verification& result) {
+  const Tree* evidence = certificate.find("averages");
+  if (evidence == nullptr) {
+    return nullptr;
+  }
+  Objections objections;
+  auto found =
+      read_gains(*evidence, certificate.at("design").at("model"), *model.recursion, design, objections);
+  result.parts.push_back({"averages", objections});
+  return found;
+}
+
+/// Whether the sentence names no start in *the steady state of the certificate*: that of the averages is
+/// another one than that of the gains beside them.
+bool is_without_start(const std::string& claim) {
+  return claim == kLimits || claim == kReach || claim == kLargestNoise;
+}
+
 /// By gains alone.
 void verify_by_gains(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
                      Verification& result) {
@@ -173,13 +193,21 @@ void verify_by_tubes(const Tree& certificate, const ModelDesign& design, const T
   const ByGains found =
       has_phases(certificate) ? verified_gains(certificate, design, model, result) : ByGains();
   const GainClaims by_gains(certificate, design, model, found.loop(), found.network());
+  const std::unique_ptr<Gains> averages = verified_averages(certificate, design, model, result);
+  const GainClaims by_averages(certificate, design, model, averages.get(), nullptr);
   const auto check = [&](const Tree& claim, Objections& objections) {
     const Tree* by = claim.find("by");
     if (by == nullptr) {
       return by_tubes.check(claim, objections);
     }
+    if (by->is("averages")) {
+      if (!is_without_start(claim.at("id").text())) {
+        objections.emplace_back("averages do not decide this");
+      }
+      return by_averages.check(claim, objections);
+    }
     if (!by->is("gains")) {
-      objections.emplace_back("a claim is by gains, or names nothing");
+      objections.emplace_back("a claim is by gains or averages, or names nothing");
     }
     return by_gains.check(claim, objections);
   };

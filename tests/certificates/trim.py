@@ -61,6 +61,8 @@ model-gains       all claims that gains decide
 model-gains-unstable  a loop that is REFUTED
 From tests/certificates/model-gains-one-channel.toml, as it is:
 model-gains-one-channel  a loop whose detector also sees twice the frequency
+From tests/certificates/model-phases.toml, a loop of one channel with a ripple:
+model-phases      its gains over the phases and on the average, and the tubes on which its bias rests
 From tests/certificates/model-gains-linear.toml, as it is:
 model-gains-linear  what [require] asks of a linear loop
 From tests/certificates/model-gains-limits.toml, model-gains-signs.toml and model-kinks.toml, as they are:
@@ -359,6 +361,10 @@ def model_moving(certificate):
                              if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
+def model_phases(certificate):
+    certificate["tubes"] = [tubes for tubes in certificate["tubes"] if tubes["name"] == "starts"]
+
+
 def model_gaussian(certificate):
     """Without what is told of no noise, and of noise with a bound."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("gaussian", "lowest-snr")]
@@ -496,6 +502,7 @@ KINDS = {
     "model-gains": lambda certificate: None,
     "model-gains-unstable": lambda certificate: None,
     "model-gains-one-channel": lambda certificate: None,
+    "model-phases": model_phases,
     "model-gains-limits": lambda certificate: None,
     "model-gains-linear": lambda certificate: None,
     "model-gains-signs": lambda certificate: None,

@@ -31,7 +31,8 @@ class ModelDocuments(CliTestCase):
         self.assertTrue(document.startswith("# PROVED: the frequency error stays below 0.05 rad/sample for ever; "
                                             "PROVED: the frequency error varies by at most 0.001 rad/sample\n"))
         sections = re.findall(r"^## (.*)$", document, re.MULTILINE)
-        self.assertEqual(sections, ["What was required", "The design and what is assumed", "The certified sets",
+        self.assertEqual(sections, ["What was required", "The design and what is assumed",
+                                    "The errors of this loop over the phase", "The certified sets",
                                     "Bias and ripple", "The recursion",
                                     "What this certificate covers, and what it does not",
                                     "What the checker verifies", "How to reproduce it"])

@@ -320,13 +320,14 @@ class Refinement {
 std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
                                                       const std::vector<NodeCurve>& curves,
                                                       FloquetGauge gauge, int harmonics) {
+  const auto n = static_cast<int>(tone.step.states());
   constexpr int kCoarse = 24;
-  const PhaseGrid coarse(std::min(harmonics, kCoarse));
+  constexpr int kMostRows = 300;  // of a matrix whose eigenvectors are found
+  const PhaseGrid coarse(std::min({harmonics, kCoarse, (kMostRows / n - 1) / 2}));
   const PhaseGrid grid(harmonics + harmonics / 2);
   const std::size_t middle = curves.size() / 2;
-  FloquetBasis modes =
-      floquet_modes(coarse, curves[middle].frequency, jacobians_along(tone, curves[middle], coarse),
-                    static_cast<Index>(tone.step.states()), gauge);
+  FloquetBasis modes = floquet_modes(coarse, curves[middle].frequency,
+                                     jacobians_along(tone, curves[middle], coarse), n, gauge);
   if (modes.modes() == 0) {
     return std::nullopt;
   }
@@ -340,17 +341,26 @@ std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
   }
   std::vector<FloquetNode> nodes(curves.size());
   nodes[middle] = reference.node();
-  for (const int direction : {-1, 1}) {
-    FloquetBasis nearest = reference.basis();
-    for (std::size_t i = middle + static_cast<std::size_t>(direction); i < curves.size();
-         i += static_cast<std::size_t>(direction)) {  // below 0 is beyond the end
-      Refinement here(tone, curves[i], grid, harmonics, nearest);
-      if (!here.solve()) {
-        return std::nullopt;
-      }
-      here.normalise(reference.basis());
-      nodes[i] = here.node();
-      nearest = here.basis();
+  FloquetBasis nearest = reference.basis();
+  const auto go_on_to = [&](std::size_t i) {
+    Refinement here(tone, curves[i], grid, harmonics, nearest);
+    if (!here.solve()) {
+      return false;
+    }
+    here.normalise(reference.basis());
+    nodes[i] = here.node();
+    nearest = here.basis();
+    return true;
+  };
+  for (std::size_t i = middle; i-- > 0;) {
+    if (!go_on_to(i)) {
+      return std::nullopt;
+    }
+  }
+  nearest = reference.basis();
+  for (std::size_t i = middle + 1; i < curves.size(); ++i) {
+    if (!go_on_to(i)) {
+      return std::nullopt;
     }
   }
   return nodes;

@@ -15,6 +15,7 @@ void PhaseErrors::join(const PhaseErrors& other) {
   for_ever = larger_or_nan(for_ever, other.for_ever);
   long_run = larger_or_nan(long_run, other.long_run);
   linear = larger_or_nan(linear, other.linear);
+  bias = larger_or_nan(bias, other.bias);
   ripple = larger_or_nan(ripple, other.ripple);
   mean = hull(mean, other.mean);
   for (std::size_t i = 0; i < from_block.size(); ++i) {
@@ -180,6 +181,7 @@ std::optional<PhaseErrors> PhaseGains::errors(const LoopDisturbance& disturbance
   const Bounds late = in_long_run(disturbance, *bounds);
   errors.long_run = error_of(late);
   errors.linear = linear_error(disturbance);
+  errors.bias = largest_bias();
   add_mean_and_ripple(late, errors);
   return errors;
 }

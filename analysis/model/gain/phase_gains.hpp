@@ -16,6 +16,7 @@ struct PhaseErrors {
   std::vector<double> from_block;  ///< from the first sample of each block of the horizon on
   double long_run = 0.0;
   double linear = 0.0;   ///< in the long run to first order, without bias and remainders
+  double bias = 0.0;     ///< the largest of the steady state, at any phase
   rigor::Interval mean;  ///< over the phase, in the long run
   double ripple = 0.0;   ///< the difference between the highest and the lowest error in the long run
 

@@ -26,8 +26,8 @@ double with_room(double bound) {
 
 class PhaseSets {
  public:
-  PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance, double known_reach)
-      : question_(&question), loop_(&loop), half_distance_(half_distance), known_reach_(known_reach) {}
+  PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance, KnownLimits known)
+      : question_(&question), loop_(&loop), half_distance_(half_distance), known_(known) {}
 
   /// Empty where the bounds are far from those of the linear recursion.
   [[nodiscard]] std::optional<PhaseProof> all() {
@@ -115,13 +115,13 @@ class PhaseSets {
         part.from_starts = gains.errors({question_->noise, 0.0, start_of(1.0)});
       }
     }
-    if (question_->largest_noise) {
+    if (question_->largest_noise && probed_noise_ > known_.noise) {
       part.noise = down_to(probed_noise_, [&](double noise) {
         part.at_noise = gains.errors({noise, 0.0, {}});
         return is_lock(part.at_noise);
       });
     }
-    if (probed_reach_ > known_reach_) {
+    if (probed_reach_ > known_.reach) {
       part.reach = down_to(probed_reach_, [&](double error) {
         part.at_reach = from_error(gains, error);
         return is_lock(part.at_reach);
@@ -179,7 +179,7 @@ class PhaseSets {
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance,
                                  const std::optional<PhaseErrors>& errors) const {
     ProvedSet set;
-    set.is_by_gains = true;
+    set.proof = ProvedSet::Proof::gains;
     set.tubes.name = name;
     set.tubes.noise = disturbance.noise;
     set.tubes.slew = disturbance.slew;
@@ -224,7 +224,8 @@ class PhaseSets {
 
   const SetQuestion* question_;
   const PhaseLoop* loop_;
-  double half_distance_, known_reach_;
+  double half_distance_;
+  KnownLimits known_;
   double probed_noise_ = 0.0, probed_reach_ = 0.0;
   std::optional<PhaseErrors> still_, assumed_, from_starts_, at_noise_, at_reach_;
   double noise_ = 0.0, reach_ = 0.0;
@@ -243,7 +244,7 @@ double samples_below(const PhaseProof& proof, const Interval& target) {
   return INFINITY;
 }
 
-std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, double known_reach,
+std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, KnownLimits known,
                                                std::string* reason) {
   const Interval& band = question.whole_band;
   const auto nothing = [&](const std::string& why) -> std::optional<PhaseProof> {
@@ -265,7 +266,7 @@ std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, doub
       return nothing("no basis was found in which its errors have constant coefficients and decay");
     }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
-    auto proof = PhaseSets(question, *loop, half_distance, known_reach).all();
+    auto proof = PhaseSets(question, *loop, half_distance, known).all();
     return proof ? std::move(proof)
                  : nothing("the bounds of its errors are far from those of the linear loop");
   } catch (const NoFrame& objection) {

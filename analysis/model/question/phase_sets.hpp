@@ -9,12 +9,17 @@
 
 namespace veritrack::model {
 
+/// What other proofs have.
+struct KnownLimits {
+  double noise = 0.0;  ///< that is tolerated, signal units
+  double reach = 0.0;  ///< the largest frequency error at the start, rad/sample
+};
+
 /// Empty where no basis with constant coefficients was found, where the rules do not cover the loop, or where
 /// its bound in the long run is far from that of the linear recursion: then tubes may be better. `reason`
-/// then receives why. `known_reach`: the largest frequency error at the start for which there is a set
-/// already, rad/sample; less is not searched for. Parts of the frequencies are worked on in parallel. Needs
-/// the upward rounding mode.
-[[nodiscard]] std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, double known_reach,
+/// then receives why. Less than what is known is not searched for. Parts of the frequencies are worked on in
+/// parallel. Needs the upward rounding mode.
+[[nodiscard]] std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, KnownLimits known,
                                                              std::string* reason = nullptr);
 
 }  // namespace veritrack::model

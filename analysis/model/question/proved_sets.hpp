@@ -32,6 +32,14 @@ struct PhaseProof {
   std::optional<ProvedSet> noise;
 };
 
+/// Beside tubes: a loop of one channel whose ripple is averaged tolerates more noise and larger errors at the
+/// start, and its bounds in the long run are worse.
+struct AveragesProof {
+  GainProof proof;
+  ProvedSet starts;  ///< as those of ProvedSets
+  std::optional<ProvedSet> noise;
+};
+
 /// The first sample from which on the error is certainly below `target`, rad/sample, for what is assumed;
 /// infinity where that is not known. Holds upward rounding.
 [[nodiscard]] double samples_below(const GainProof& proof, const rigor::Interval& target);
@@ -50,8 +58,9 @@ struct ProvedSets {
 
   /// By gains: for the assumed noise and slew, and starts of which the frequency is off as far as possible.
   std::optional<ProvedSet> reach = {};
-  std::optional<GainProof> gains = {};    ///< the proof, where it is by gains
-  std::optional<PhaseProof> phases = {};  ///< by gains that depend on the phase; beside the other sets
+  std::optional<GainProof> gains = {};         ///< the proof, where it is by gains
+  std::optional<PhaseProof> phases = {};       ///< by gains that depend on the phase; beside the other sets
+  std::optional<AveragesProof> averages = {};  ///< beside the other sets, too
   /// The set for what is assumed.
   [[nodiscard]] const ProvedSet& deciding() const { return assumed ? *assumed : starts; }
   /// The one with the better bounds for what is assumed, by whatever proof.

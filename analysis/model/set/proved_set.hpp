@@ -15,7 +15,8 @@ namespace veritrack::model {
 /// for a checker whose bounds are cruder. Infinite, or empty, where nothing is known.
 struct ProvedSet {
   TubeSet tubes;
-  bool is_by_gains = false;           ///< then there are no tubes, only their name and the disturbances
+  /// By which proof. Without tubes `tubes` has only their name and the disturbances.
+  enum class Proof { tubes, gains, averages } proof = Proof::tubes;
   double frequency_error = INFINITY;  ///< of level R_0, at most, rad/sample
   double half_distance = 0.0;         ///< to the next false lock (false_lock.hpp), rad/sample
   double settled_error = INFINITY;    ///< of level R_m, at most, rad/sample
@@ -28,6 +29,7 @@ struct ProvedSet {
   [[nodiscard]] bool is_proved() const { return tubes.is_complete; }
   /// For a part of it only: `tubes.part`.
   [[nodiscard]] bool has_part() const { return !tubes.is_complete && !tubes.tubes.empty(); }
+  [[nodiscard]] bool is_without_tubes() const { return proof != Proof::tubes; }
 };
 
 /// The consequences of tubes at the frequencies that they cover, for starts within `deviations` of the curve,

@@ -156,6 +156,14 @@ class ModelClaims {
       decide_size(say, {covers_assumptions() ? set->reach : 0.0, set}, *number,
                   "The certified set reaches {} rad/sample", assumption_objection());
     }
+    add_required_steady_state(require);
+    add_loop_claims(*certificate_);
+    conclude_requirements(*certificate_);
+  }
+
+ private:
+  /// Bias and ripple.
+  void add_required_steady_state(const ModelRequirements& require) {
     const ModelWords words = words_for(std::nullopt, settled_set());
     const std::string settled = words.constant_tone() + ", without noise, " + words.started_in("starts");
     if (const auto& number = require.bias_below) {
@@ -184,11 +192,8 @@ class ModelClaims {
       decide(claim, has_bias(), settled_set().ripple, *number, "It varies by at most {} rad/sample",
              objection_of(settled_set(), is_met), true);
     }
-    add_loop_claims(*certificate_);
-    conclude_requirements(*certificate_);
   }
 
- private:
   /// For a part of the band.
   [[nodiscard]] ModelWords words_for(std::optional<BandPart> part, const ProvedSet& set) const {
     return ModelWords(*tables_, std::move(part), sets_->starts_in(set));

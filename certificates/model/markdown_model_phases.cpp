@@ -18,9 +18,10 @@ namespace veritrack::certificates {
 
 namespace {
 
-/// How fast the errors decay to first order, in the middle of the band. The oscillation of a mode is left
+/// How fast the errors decay to first order, at one frequency. The oscillation of a mode is left
 /// out: it depends on whether one turns with the signal.
-std::string modes_of(const model::PhaseProof& proof, const std::optional<Number>& sample_rate) {
+std::string modes_of(const model::PhaseProof& proof, const std::optional<Number>& sample_rate,
+                     const FrequencyUnits& units) {
   const model::FloquetCell& cell = proof.cells[proof.cells.size() / 2];
   const auto n = static_cast<Eigen::Index>(cell.states());
   Eigen::MatrixXd matrix(n, n);
@@ -37,10 +38,10 @@ std::string modes_of(const model::PhaseProof& proof, const std::optional<Number>
     }
   }
   return fmt::format(
-      "To first order, errors of the {} states decay in modes with the time constants {}{} (in "
-      "the middle of the band, to three digits, not proved); what is faster than half a sample "
-      "is left out.\n\n",
-      n, fmt::join(times, ", "), sample_rate ? "" : " samples");
+      "To first order, errors of the {} states decay in modes with the time constants {}{} (at {:.4g} {}, to "
+      "three digits, not proved); what is faster than half a sample is left out.\n\n",
+      n, fmt::join(times, ", "), sample_rate ? "" : " samples", units.drawn(cell.curve.frequency),
+      units.drawn_unit());
 }
 
 /// What an engineer can improve.
@@ -75,7 +76,7 @@ std::string model_phases_section(const Certificate& certificate) {
          "error does depends on the phase. In a basis that turns with the signal the coefficients are "
          "constant. Each bound is the sum of the worst that every earlier sample can contribute at the phase "
          "at which it came in, and the largest of all phases and frequencies.\n\n" +
-         modes_of(proof, sample_rate) + phase_budget_table(proof.errors, sets, units) +
+         modes_of(proof, sample_rate, units) + phase_budget_table(proof.errors, sets, units) +
          gain_limits_table(proof.noise ? &*proof.noise : nullptr, nullptr, proof.starts, units) +
          fmt::format(
              "The band is cut into {} parts for this, a turn of the phase into {}, and {} earlier samples "
@@ -90,8 +91,7 @@ std::string model_averages_section(const Certificate& certificate) {
   const model::AveragesProof& averages = *model_sets(certificate).averages;
   const FrequencyUnits units(model_tables(certificate.design).assume.sample_rate);
   return "## More noise, and starts further off\n\nWhat turns with the signal in this loop is known, and can "
-         "be averaged. The bounds of errors in the long run are worse then, but less is assumed of them, so "
-         "that more is tolerated:\n\n" +
+         "be averaged. More is proved to be tolerated in this way:\n\n" +
          gain_limits_table(averages.noise ? &*averages.noise : nullptr, nullptr, averages.starts, units) +
          "A statement that the tracker tolerates noise, or that a set contains frequency errors, is proved "
          "in "

@@ -32,8 +32,8 @@ struct PhaseProof {
   std::optional<ProvedSet> noise;
 };
 
-/// Beside tubes: a loop of one channel whose ripple is averaged tolerates more noise and larger errors at the
-/// start, and its bounds in the long run are worse.
+/// Beside tubes: of a loop of one channel whose ripple is averaged. Its bounds in the long run are mostly
+/// worse, and more noise and larger errors at the start may be proved.
 struct AveragesProof {
   GainProof proof;
   ProvedSet starts;  ///< as those of ProvedSets

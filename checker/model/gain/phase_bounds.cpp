@@ -1,9 +1,10 @@
 #include "checker/model/gain/phase_bounds.hpp"
-#include "checker/numbers/threads.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "checker/numbers/threads.hpp"
 
 namespace veritrack::checker {
 

@@ -28,6 +28,13 @@ Eigen::Matrix3d basis_at(double phase) {
   return turn * wave;
 }
 
+/// A pair of multipliers, 0.9 +- 0.05i, and one, 0.97.
+Eigen::Matrix3d pair_and_one() {
+  Eigen::Matrix3d constant;
+  constant << 0.9, 0.05, 0.0, -0.05, 0.9, 0.0, 0.0, 0.0, 0.97;
+  return constant;
+}
+
 /// A(phi) = P(phi + omega) constant P(phi)^-1.
 Eigen::MatrixXd jacobians_of(const PhaseGrid& grid, const Eigen::Matrix3d& constant) {
   Eigen::MatrixXd values(9, grid.size());
@@ -62,9 +69,7 @@ void check_eigenvalues(const Eigen::MatrixXd& matrix, const std::vector<std::com
 
 TEST_CASE("modes make a matrix constant, with its multipliers") {
   const PhaseGrid grid(24);
-  Eigen::Matrix3d constant;
-  constant << 0.9, 0.05, 0.0, -0.05, 0.9, 0.0, 0.0, 0.0, 0.97;
-  const Eigen::MatrixXd jacobians = jacobians_of(grid, constant);
+  const Eigen::MatrixXd jacobians = jacobians_of(grid, pair_and_one());
   const FloquetBasis basis = model::floquet_modes(grid, kOmega, jacobians, 3, FloquetGauge::by_mode);
   REQUIRE(basis.modes() == 3);
   const Eigen::MatrixXd first = seen_at(grid, jacobians, basis, 0);
@@ -85,9 +90,7 @@ TEST_CASE("modes make a matrix constant, with its multipliers") {
 
 TEST_CASE("by state the mean of the basis is the unit matrix, or there is none") {
   const PhaseGrid grid(24);
-  Eigen::Matrix3d constant;
-  constant << 0.9, 0.05, 0.0, -0.05, 0.9, 0.0, 0.0, 0.0, 0.97;
-  const Eigen::MatrixXd jacobians = jacobians_of(grid, constant);
+  const Eigen::MatrixXd jacobians = jacobians_of(grid, pair_and_one());
   const FloquetBasis basis = model::floquet_modes(grid, kOmega, jacobians, 3, FloquetGauge::by_state);
   REQUIRE(basis.modes() == 3);
   const Eigen::VectorXd mean = basis.values.rowwise().mean();

@@ -250,12 +250,13 @@ Figure tolerance_figure(const certificates::ModelSets& sets, const FrequencyUnit
   const std::string words = data.size() > 1                  ? "Above, " + noise + "; below, " + slew
                             : labels[0].starts_with("noise") ? "Noise: " + noise
                                                              : "Slew: " + slew;
-  return {"tolerance.svg",
-          words +
-              ", against the frequency of the signal. Proved for each cell of frequencies by itself; what is "
-              "said of the whole band is the least of them, or less.",
-          std::move(script), "Noise and slew that are tolerated, over the frequency of the signal",
-          std::move(data)};
+  return {
+      "tolerance.svg",
+      words +
+          ", against the frequency of the signal. Proved by tubes, for each cell of frequencies by itself; "
+          "what tubes prove of the whole band is the least of them, or less.",
+      std::move(script), "Noise and slew that are tolerated, over the frequency of the signal",
+      std::move(data)};
 }
 
 }  // namespace

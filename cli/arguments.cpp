@@ -13,6 +13,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/design/design_format.hpp"
 #include "certificates/document/code_language.hpp"
+#include "certificates/document/tuning.hpp"
 #include "certificates/help/design_template.hpp"
 #include "cli/reproduce_options.hpp"
 #include "cli/shell_words.hpp"
@@ -46,7 +47,8 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
     {"tune",
      "  veritrack tune my-design.toml\n"
      "  veritrack tune my-design.toml --objective noise --timeout 300\n"
-     "  veritrack tune my-observer.toml --out tuned.toml"},
+     "  veritrack tune my-observer.toml --out tuned.toml\n"
+     "  veritrack tune my-loop.toml --over kp=0.01:0.1 --over ki=1e-5:1e-3"},
     {"track",
      "  veritrack track my-design.toml scope.csv --columns CH1,CH2\n"
      "  veritrack track my-design.toml tone.wav --scale auto\n"
@@ -79,6 +81,13 @@ std::string is_seconds(const std::string& text) {
   const double value = rigor::nearest_double(text);
   return value >= 1e-3 && value <= 1e8 ? std::string()
                                        : std::string("allowed: a number of seconds from 0.001 to 1e8");
+}
+
+/// NAME=LOW:HIGH, decimals, the lower one first.
+std::string is_free_parameter(const std::string& text) {
+  return certificates::free_parameter(text)
+             ? std::string()
+             : std::string("allowed: NAME=LOW:HIGH with two numbers, the lower one first");
 }
 
 void add_certify(CLI::App& app, Arguments& into) {
@@ -193,12 +202,16 @@ void add_tune(CLI::App& app, Arguments& into) {
   CLI::App* tune =
       app.add_subcommand("tune", "choose design values for the best guarantee, and certify the result");
   tune->add_option("DESIGN", into.tune.design,
-                   "design file (TOML), tracker quadrature-ekf, single-channel-ekf or kkl-observer")
+                   "design file (TOML), tracker quadrature-ekf, single-channel-ekf, kkl-observer or model")
       ->required();
   tune->add_option("--objective", into.tune.objective,
                    "noise with a bound: long-run (default), for-ever, radius, noise, slew or simulated-rms; "
                    "Gaussian noise: rms (default), lowest-snr or simulated-rms; kkl-observer: "
-                   "frequency-error");
+                   "frequency-error; model: long-run, for-ever, radius, noise or slew");
+  tune->add_option(
+          "--over", into.tune.over,
+          "model: a parameter that may change, and from where to where, NAME=LOW:HIGH; once for each")
+      ->check(is_free_parameter);
   tune->add_option("--out", into.tune.output,
                    "design file to write (default: <name of the design file>-tuned.toml)");
   tune->add_option("--certificate", into.tune.directory,

@@ -60,13 +60,14 @@ struct ShowOptions {
 struct TuneOptions {
   std::string design;
   std::string output;
-  std::string objective;        ///< empty: the first that fits the assumptions
-  std::string directory;        ///< for the certificate; empty: by the name of the output
-  int designs = 60;             ///< that the search looks at, at most
-  double seconds = 0.0;         ///< after which the search ends; 0: never
-  bool free_leak = false;       ///< epsilon may become smaller
-  bool no_certificate = false;  ///< the design file alone
-  bool quiet = false;           ///< no progress on standard error
+  std::string objective;          ///< empty: the first that fits the assumptions
+  std::string directory;          ///< for the certificate; empty: by the name of the output
+  std::vector<std::string> over;  ///< NAME=LOW:HIGH for each parameter that may change
+  int designs = 60;               ///< that the search looks at, at most
+  double seconds = 0.0;           ///< after which the search ends; 0: never
+  bool free_leak = false;         ///< epsilon may become smaller
+  bool no_certificate = false;    ///< the design file alone
+  bool quiet = false;             ///< no progress on standard error
 };
 
 struct TrackOptions {

@@ -37,6 +37,9 @@ certificates::TuningResult tuned(const certificates::Design& design, const std::
   request.design_text = text;
   request.objective = options.objective;
   request.most_designs = options.designs;
+  for (const std::string& words : options.over) {
+    request.over.push_back(certificates::free_parameter(words).value());
+  }
   request.free_leak = options.free_leak;
   request.with_trade_off = !options.no_certificate;
   request.deadline = (options.seconds > 0.0 ? search::Deadline(options.seconds) : search::Deadline())

@@ -14,14 +14,24 @@
 
 namespace veritrack::certificates {
 
+/// A parameter that may change, from `low` to `high`, which is larger.
+struct FreeParameter {
+  std::string name;
+  double low = 0.0, high = 0.0;
+};
+
+/// Of "NAME=LOW:HIGH" with two decimals. Empty for other words.
+[[nodiscard]] std::optional<FreeParameter> free_parameter(std::string_view words);
+
 /// The request for a tuned design.
 struct TuningRequest {
-  std::string design_text;         ///< the file, whose words and order are kept where that is possible
-  std::string objective;           ///< one of `tuning_objectives`; empty: the first that fits the assumptions
-  int most_designs = 60;           ///< in the search; the trade-off and the alternatives are extra
-  bool free_leak = false;          ///< a leak above 0 may change, and become 0
-  bool with_trade_off = true;      ///< also examines faster and slower designs
-  search::Deadline deadline = {};  ///< the best so far is the result when it is over
+  std::string design_text;  ///< the file, whose words and order are kept where that is possible
+  std::string objective;    ///< one of `tuning_objectives`; empty: the first that fits the assumptions
+  int most_designs = 60;    ///< in the search; the trade-off and the alternatives are extra
+  std::vector<FreeParameter> over = {};  ///< for trackers whose parameters the user has named
+  bool free_leak = false;                ///< a leak above 0 may change, and become 0
+  bool with_trade_off = true;            ///< also examines faster and slower designs
+  search::Deadline deadline = {};        ///< the best so far is the result when it is over
   /// Called with the number of designs examined, and the most there may be.
   std::function<void(int, int)> progress = {};
 };

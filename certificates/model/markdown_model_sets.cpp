@@ -210,7 +210,7 @@ std::string linear_comparison(const ModelSets& sets, const FrequencyUnits& units
     return fmt::format("{:.4g} rad/sample{}", radians,
                        units.has_hertz() ? fmt::format(" ({:.4g} Hz)", units.drawn(radians)) : "");
   };
-  const double bound = settled_error_of(sets);
+  const double bound = best_settled_error_of(sets);
   std::string text = fmt::format(
       "*Computed, not proved:* to first order in the errors, the assumed disturbances bring the frequency "
       "error in the long run to about {} at worst, of which {} are there without them. This is the sum of "

@@ -275,7 +275,7 @@ Json model_report_json(const Certificate& certificate) {
                                {"frequency", sets.linear->frequency},
                                {"undisturbed", sets.linear->undisturbed},
                                {"disturbed", sets.linear->disturbed}};
-  const double bound = settled_error_of(sets);
+  const double bound = best_settled_error_of(sets);
   if (std::isfinite(bound) && sets.linear->disturbed > 0.0) {
     json["linear_worst_case"]["bound_over_it"] = bound / sets.linear->disturbed;
   }

@@ -15,6 +15,7 @@
 #include "certificates/model/model_promise.hpp"
 #include "certificates/model/model_run.hpp"
 #include "certificates/model/model_sets.hpp"
+#include "certificates/model/model_tuning.hpp"
 #include "certificates/model/recursion_text.hpp"
 
 namespace veritrack::certificates {
@@ -53,6 +54,9 @@ const TrackerKind& model_kind() {
                                 .limited_in_time = true,
                                 .evidence_json = model_evidence_json,
                                 .report_json = model_report_json,
+                                .tune = tune_model,
+                                .tuning_objectives = model_tuning_objectives(),
+                                .names_parameters = true,
                                 .show = show,
                                 .track = model_on_samples,
                                 .frequency_promise = model_frequency_promise};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 #include "certificates/design/toml_source.hpp"
 
@@ -52,12 +53,28 @@ class Places {
   const char* start_;
 };
 
+/// The text without the byte order mark with which it may begin.
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  return text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+}
+
+std::string replaced(const std::string& text, std::vector<Replacement> replacements) {
+  const std::size_t skipped = text.size() - without_mark(text).size();
+  // The later ones first: positions before them stay as they are.
+  std::stable_sort(replacements.begin(), replacements.end(),
+                   [](const Replacement& a, const Replacement& b) { return a.begin > b.begin; });
+  std::string result = text;
+  for (const Replacement& each : replacements) {
+    result.replace(skipped + each.begin, each.end - each.begin, each.text);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<std::string> with_design_values(const std::string& text, const std::vector<DesignEdit>& edits) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  const std::size_t skipped = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
-  const std::string_view seen = std::string_view(text).substr(skipped);
+  const std::string_view seen = without_mark(text);
   const TomlSource source(text, "design");
   const Places places(source, seen);
   const toml::table* table = source.root()["design"].as_table();
@@ -94,14 +111,25 @@ std::optional<std::string> with_design_values(const std::string& text, const std
     const bool needs_feed = last_line > 0 && last_line == seen.size() && seen[last_line - 1] != '\n';
     replacements.push_back({last_line, last_line, (needs_feed ? "\n" : "") + added});
   }
-  // The later ones first: positions before them stay as they are.
-  std::stable_sort(replacements.begin(), replacements.end(),
-                   [](const Replacement& a, const Replacement& b) { return a.begin > b.begin; });
-  std::string result = text;
-  for (const Replacement& each : replacements) {
-    result.replace(skipped + each.begin, each.end - each.begin, each.text);
+  return replaced(text, std::move(replacements));
+}
+
+std::optional<std::string> with_parameter_values(const std::string& text,
+                                                 const std::vector<DesignEdit>& edits) {
+  const std::string_view seen = without_mark(text);
+  const TomlSource source(text, "design");
+  const Places places(source, seen);
+  std::vector<Replacement> replacements;
+  for (const DesignEdit& edit : edits) {
+    const toml::node* node = source.root()["model"]["parameters"][edit.key].node();
+    const std::size_t begin = node == nullptr ? 0 : places.offset(node->source().begin);
+    const std::size_t end = node == nullptr ? 0 : places.offset(node->source().end);
+    if (!(begin < end)) {
+      return std::nullopt;
+    }
+    replacements.push_back({begin, end, edit.value.value()});
   }
-  return result;
+  return replaced(text, std::move(replacements));
 }
 
 }  // namespace veritrack::certificates

@@ -1,4 +1,4 @@
-// The text of a design file with other values under [design], everything else as it was.
+// The text of a design file with other values, everything else as it was.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace veritrack::certificates {
 
-/// A key of [design] and its value as TOML; none: the key is removed.
+/// A key of a table and its value as TOML; none: the key is removed.
 struct DesignEdit {
   std::string key;
   std::optional<std::string> value;
@@ -18,5 +18,10 @@ struct DesignEdit {
 /// design file that can be read.
 [[nodiscard]] std::optional<std::string> with_design_values(const std::string& text,
                                                             const std::vector<DesignEdit>& edits);
+
+/// The same for values under [model], `parameters`, which may stand in one line. Empty when the text does not
+/// have such a table with all of these keys. Every edit has a value.
+[[nodiscard]] std::optional<std::string> with_parameter_values(const std::string& text,
+                                                               const std::vector<DesignEdit>& edits);
 
 }  // namespace veritrack::certificates

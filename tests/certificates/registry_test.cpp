@@ -42,7 +42,7 @@ TEST_CASE("what a kind of tracker does not have is not asked of it, and those th
       CHECK_THROWS_AS((void)tune(design, {}), std::logic_error);
     }
   }
-  CHECK(trackers_with_tuning() == "quadrature-ekf or kkl-observer or single-channel-ekf");
+  CHECK(trackers_with_tuning() == "quadrature-ekf or kkl-observer or single-channel-ekf or model");
   Design observer;
   observer.tracker = "kkl-observer";
   CHECK_FALSE(reports::has_map(observer));

@@ -4,7 +4,7 @@ import signal
 import subprocess
 import unittest
 
-from support import DESIGN, PROGRAM, CliTestCase
+from support import DESIGN, PROGRAM, ROOT, CliTestCase
 
 GAUSSIAN = DESIGN.replace("noise = 0.001", "noise = { snr_db = 30 }\nsamples = 1e6")
 ONE_CHANNEL = """name = "a design"
@@ -67,6 +67,24 @@ class Tune(CliTestCase):
         self.write(ONE_CHANNEL.replace("noise = 0.01", "noise = 0.01\nsamples = 1e6"))
         result = self.run_here("tune", "design.toml")
         self.assertIn("unknown key assume.samples; it goes with the tracker quadrature-ekf or model", result.stderr)
+
+    def test_parameters_of_a_model_are_named_on_the_command_line(self):
+        design = (ROOT / "designs" / "models" / "odrive-pll.toml").read_text()
+        self.write(design)
+        for over, message in ((["--over", "kp=1"], "--over: allowed: NAME=LOW:HIGH with two numbers, the lower one first"),
+                              (["--over", "gain=1:2"], "there is no parameter gain; allowed: "),
+                              ([], "veritrack tune needs to know which parameters may change")):
+            result = self.run_here("tune", "design.toml", *over)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(message, result.stderr)
+        result = self.run_here("tune", "design.toml", "--over", "bandwidth=200:4000", "--designs", "20", "--no-certificate")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        shown = (ROOT / "docs" / "choosing.md").read_text()
+        self.assertIn(f"--over bandwidth=200:4000 --designs 20\n{result.stdout.splitlines()[0]}\n", shown)
+        self.write(DESIGN)
+        result = self.run_here("tune", "design.toml", "--over", "q1=1:2")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--over is for parameters that a design file names", result.stderr)
 
     def test_simulations_are_compared_as_they_are_where_nothing_is_required(self):
         self.write(ONE_CHANNEL.replace("r = 0.01", "r = 0.01\nepsilon = 0.001"))

@@ -1,5 +1,7 @@
 #include "analysis/model/question/proved_sets.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 #include <utility>
 
@@ -129,6 +131,10 @@ const ProvedSet& ProvedSets::best() const {
 
 double settled_error_of(const ProvedSets& sets) {
   return sets.long_run ? sets.long_run->settled_error : sets.assumed ? sets.assumed->settled_error : INFINITY;
+}
+
+double best_settled_error_of(const ProvedSets& sets) {
+  return std::min(settled_error_of(sets), sets.best().settled_error);
 }
 
 }  // namespace veritrack::model

@@ -74,5 +74,7 @@ struct ProvedSets {
 /// The proved bound of the frequency error in the long run of `assumed`, rad/sample; infinity where nothing
 /// is known.
 [[nodiscard]] double settled_error_of(const ProvedSets& sets);
+/// The same by the better proof.
+[[nodiscard]] double best_settled_error_of(const ProvedSets& sets);
 
 }  // namespace veritrack::model

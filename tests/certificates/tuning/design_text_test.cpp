@@ -45,5 +45,20 @@ TEST_CASE("inline tables are not written into, where lines are not there to be r
   CHECK_FALSE(with_design_values("design.q1 = 1\n", {{"q1", "3"}}));
 }
 
+TEST_CASE("parameters are replaced in one line or in a table of their own") {
+  const std::string head = "\xEF\xBB\xBFname = 'π'\n[design]\nkp = 1\n";
+  const auto inline_table = with_parameter_values(
+      head + "[model]\nparameters = { kp = 2, dt = '1/8', ki = 3e-4 } # π\nangles = []\n",
+      {{"ki", "5"}, {"kp", "0.25"}, {"dt", "0.1"}});
+  REQUIRE(inline_table);
+  CHECK(*inline_table == head + "[model]\nparameters = { kp = 0.25, dt = 0.1, ki = 5 } # π\nangles = []\n");
+  const auto table =
+      with_parameter_values(head + "[model.parameters]\nki = 3 # slow\nkp = 2\n", {{"ki", "5"}});
+  REQUIRE(table);
+  CHECK(*table == head + "[model.parameters]\nki = 5 # slow\nkp = 2\n");
+  CHECK_FALSE(with_parameter_values(head, {{"kp", "1"}}));
+  CHECK_FALSE(with_parameter_values(head + "[model]\nparameters = { kp = 2 }\n", {{"kq", "1"}}));
+}
+
 }  // namespace
 }  // namespace veritrack::certificates

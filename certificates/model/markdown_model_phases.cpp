@@ -76,7 +76,11 @@ std::string model_phases_section(const Certificate& certificate) {
          "error does depends on the phase. In a basis that turns with the signal the coefficients are "
          "constant. Each bound is the sum of the worst that every earlier sample can contribute at the phase "
          "at which it came in, and the largest of all phases and frequencies.\n\n" +
-         modes_of(proof, sample_rate, units) + phase_budget_table(proof.errors, sets, units) +
+         modes_of(proof, sample_rate, units) +
+         (proof.assumed.is_proved()
+              ? phase_budget_table(proof.errors, sets, units)
+              : "For the assumed noise and slew these bounds do not close; what follows is "
+                "for less.\n\n") +
          gain_limits_table(proof.noise ? &*proof.noise : nullptr, nullptr, proof.starts, units) +
          fmt::format(
              "The band is cut into {} parts for this, a turn of the phase into {}, and {} earlier samples "

@@ -565,9 +565,9 @@ class ModelClaims {
   /// Where no set was proved for the assumed noise and slew: the noise and slew for which one was.
   [[nodiscard]] std::string tolerated() const {
     std::string text;
-    const auto tell = [&](const std::optional<ProvedSet>& set, double model::TubeSet::*size,
-                          std::string_view what, std::string_view unit) {
-      const Scope scope = sets_->assumed && set ? scope_of(*set) : Scope{};
+    const auto tell = [&](const ProvedSet* set, double model::TubeSet::*size, std::string_view what,
+                          std::string_view unit) {
+      const Scope scope = sets_->assumed && set != nullptr ? scope_of(*set) : Scope{};
       if (!scope.is_any || !(set->tubes.*size > 0.0)) {
         return;
       }
@@ -578,9 +578,13 @@ class ModelClaims {
           below(set->tubes.*size), unit);
     };
     if (sets_->assumed && sets_->assumed->tubes.noise > 0.0) {
-      tell(sets_->noise, &model::TubeSet::noise, "noise at a constant frequency", "");
+      const ProvedSet* largest = largest_noise(*sets_).set;
+      const ProvedSet* of_part = sets_->noise ? &*sets_->noise : nullptr;
+      tell(largest != nullptr ? largest : of_part, &model::TubeSet::noise, "noise at a constant frequency",
+           "");
     }
-    tell(sets_->slew, &model::TubeSet::slew, "slew without noise", " rad/sample per sample");
+    tell(sets_->slew ? &*sets_->slew : nullptr, &model::TubeSet::slew, "slew without noise",
+         " rad/sample per sample");
     return text;
   }
   /// The reason why the largest noise or slew is not known for the whole band.

@@ -13,6 +13,7 @@
 #include "analysis/model/question/phase_sets.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/small_matrix.hpp"
 #include "certificates/model/operation_words.hpp"
 
 namespace veritrack::certificates {
@@ -244,6 +245,11 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   question.reach_of_assumed = require.frequency_error_radius_at_least.has_value();
   question.deadline = deadline;
   ModelSets sets;
+  if (model.states.size() > std::size_t{rigor::kMostSmallRows} && question.tone.filter == nullptr) {
+    sets.objection =
+        fmt::format("{} states are too many: at most {}", model.states.size(), rigor::kMostSmallRows);
+    return sets;
+  }
   sets.bounds_covariance = question.tone.filter != nullptr;
   std::string no_gains;
   std::optional<model::ProvedSets> by_gains = model::prove_by_gains(question, &no_gains);

@@ -14,7 +14,7 @@ KINDS = {
     "single-channel-ekf": ("bittanti-savaresi-2000-example-1-quiet.toml", {"frequency_error_bound": "at most"},
                            {"contraction"}),
     "kkl-observer": ("praly-section-v-proved-ell.toml", {"frequency_error_bound": "at most"}, set()),
-    "model": ("models/type-2-pll.toml", {"frequency_error": "at most", "settled_frequency_error": "at most"}, {"tubes"}),
+    "model": ("models/type-2-pll.toml", {"frequency_error": "at most", "noise": "at least"}, {"tubes"}),
     "vibration-regulator": ("regulator/thesis-example.toml", {"output_bound": "at most",
                                                               "ultimate_attenuation": "at least"},
                             {"frequency_tracker/contraction"}),

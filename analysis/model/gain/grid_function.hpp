@@ -1,6 +1,7 @@
-// Functions of the phase on a grid (docs/gain-proof.md, section 10).
+// Functions of the phase and the frequency on a grid (docs/gain-proof.md, section 10).
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -10,11 +11,16 @@
 
 namespace veritrack::model {
 
-/// A function of the phase with several components, nearly linear between the points of a grid.
+/// A function with several components, nearly linear between the points of a grid of phases, and between the
+/// lowest and the highest frequency of a part.
 struct GridFunction {
-  std::vector<std::vector<double>> values;  ///< by component, by point of the grid
-  std::vector<double> error;                ///< by component: the distance from it, for all frequencies
-  std::vector<double> largest, first_difference, second_difference;  ///< by component
+  std::array<std::vector<std::vector<double>>, 2>
+      values;                 ///< by end of the part, component, point of the grid
+  std::vector<double> error;  ///< by component: the distance from it
+  // Suprema by component: of it, and of its differences along the phase.
+  std::vector<double> largest, first_difference, second_difference;
+  /// Of half of what it changes over the part, and of the differences of that along the phase.
+  std::vector<double> lean, lean_difference;
 };
 
 /// The larger one; NaN where one of them is.
@@ -28,5 +34,12 @@ using ModelAt = std::function<const rigor::BallModel&(std::size_t cell, std::siz
 /// From models of s and z over each cell. Where nothing is known, the error is NaN. Needs the upward rounding
 /// mode.
 [[nodiscard]] GridFunction grid_function(std::size_t components, std::size_t phases, const ModelAt& at);
+
+/// The same as a function of the phase alone: that in the middle of the part, with a larger error. Needs the
+/// upward rounding mode.
+[[nodiscard]] GridFunction without_lean(const GridFunction& f);
+
+/// sup |f - (constant + slope z)| over a cell; NaN where nothing is known. Needs the upward rounding mode.
+[[nodiscard]] double distance_from_line(const rigor::BallModel& f, double constant, double slope);
 
 }  // namespace veritrack::model

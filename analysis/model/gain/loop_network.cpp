@@ -347,7 +347,14 @@ std::optional<Eigen::VectorXd> steady_at(const TrackerModel& tracker, double ome
     for (Eigen::Index i = 0; i < n; ++i) {
       double& each = state[static_cast<std::size_t>(i)];
       each -= change(i);
-      size = std::max(size, std::fabs(change(i)) / std::max(std::fabs(each), 1e-6));
+      // What a step adds to the state is rounded, however small the state is in its unit.
+      double scale = std::max(std::fabs(each), 1e-6);
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const auto other = static_cast<std::size_t>(j);
+        const double natural = tracker.recursion->is_angle[other] ? 1.0 : std::fabs(state[other]);
+        scale = std::max(scale, j == i ? 0.0 : std::fabs(residual.slope(i, j)) * natural);
+      }
+      size = std::max(size, std::fabs(change(i)) / scale);
     }
     // As near as rounding lets it come.
     if (size < 1e-14 || (size < 1e-6 && size >= 0.5 * last)) {

@@ -42,6 +42,8 @@ class PhaseGains {
   [[nodiscard]] std::size_t states() const { return parts_.front().states; }
   /// What the sums on the grid miss of the gain from noise to the frequency error, relative to it.
   [[nodiscard]] double missed_share() const;
+  /// From noise to the frequency error, without that.
+  [[nodiscard]] double largest_gain() const { return linear_error({1.0, 0.0, {}}); }
   /// The largest frequency error on the curve, rad/sample.
   [[nodiscard]] double largest_bias() const;
   [[nodiscard]] std::optional<std::pair<std::size_t, rigor::Interval>> frequency_state() const;

@@ -44,9 +44,9 @@ double PhaseKernels::missed_of(const GridFunction& form, const Column& column, c
   for (const GridFunction* each : column.components) {
     turned += 0.25 * product(form.first_difference, power_sum_, each->first_difference);
   }
-  return inner(form.largest, column.bent) + turned + inner(form.error, column.sizes) +
-         inner(form.largest, column.mistaken) + product(all, defect_, total) +
-         kRounding * inner(all, column.sizes);
+  return inner(form.largest, column.bent) + inner(form.lean, column.leaned) + turned +
+         inner(form.error, column.sizes) + inner(form.largest, column.mistaken) +
+         product(all, defect_, total) + kRounding * inner(all, column.sizes);
 }
 
 /// The columns at one lag, at the phases from which they reach the points of the grid, and what forms see of
@@ -55,15 +55,16 @@ class PhaseKernels::LagSums {
  public:
   explicit LagSums(const PhaseKernels& kernels)
       : kernels_(&kernels),
-        row_(kernels.states_, Vector(kernels.phases_)),
+        rows_{std::vector<Vector>(kernels.states_, Vector(kernels.phases_)),
+              std::vector<Vector>(kernels.states_, Vector(kernels.phases_))},
         value_(kernels.phases_),
         side_(kernels.phases_) {}
 
   void place(std::size_t lag) {
     const PhaseKernels& of = *kernels_;
     const double points = static_cast<double>(of.phases_) / (2.0 * std::numbers::pi);
-    power_ = of.powers_.data() + lag * of.states_ * of.states_;
     for (std::size_t side = 0; side < 2; ++side) {
+      powers_[side] = of.powers_[side].data() + lag * of.states_ * of.states_;
       const double width = of.half_width_at(lag);
       const double frequency = of.part_->frequency + (side == 0 ? -width : width);
       shifts_[side] = shift_of(-static_cast<double>(lag + 1) * frequency * points, of.phases_);
@@ -76,17 +77,8 @@ class PhaseKernels::LagSums {
   }
 
   void look_at(const GridFunction& form) {
-    const std::size_t n = kernels_->states_;
-    for (std::size_t j = 0; j < n; ++j) {
-      Vector& row = row_[j];
-      std::fill(row.begin(), row.end(), 0.0);
-      for (std::size_t i = 0; i < n; ++i) {
-        const double factor = power_[i * n + j];
-        const double* values = form.values[i].data();
-        for (std::size_t g = 0; g < row.size(); ++g) {
-          row[g] += factor * values[g];
-        }
-      }
+    for (const std::size_t side : {0U, 1U}) {
+      multiply(form, side);
     }
   }
 
@@ -101,6 +93,21 @@ class PhaseKernels::LagSums {
   }
 
  private:
+  void multiply(const GridFunction& form, std::size_t side) {
+    const std::size_t n = kernels_->states_;
+    for (std::size_t j = 0; j < n; ++j) {
+      Vector& row = rows_[side][j];
+      std::fill(row.begin(), row.end(), 0.0);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double factor = powers_[side][i * n + j];
+        const double* values = form.values[side][i].data();
+        for (std::size_t g = 0; g < row.size(); ++g) {
+          row[g] += factor * values[g];
+        }
+      }
+    }
+  }
+
   /// A place between two points of the grid: `offset` points on and a share of one.
   struct Shift {
     std::size_t offset = 0;
@@ -122,7 +129,7 @@ class PhaseKernels::LagSums {
     const Shift shift = shifts_[side];
     for (std::size_t c = 0; c < components.size(); ++c) {
       for (std::size_t j = 0; j < kernels_->states_; ++j) {
-        const Vector& from = components[c]->values[j];
+        const Vector& from = components[c]->values[side][j];
         Vector& to = here[column][c * kernels_->states_ + j];
         for (std::size_t g = 0; g < phases; ++g) {
           const std::size_t first = (g + shift.offset) % phases;
@@ -142,7 +149,7 @@ class PhaseKernels::LagSums {
       for (std::size_t g = 0; g < result.size(); ++g) {
         double z = 0.0;
         for (std::size_t j = 0; j < n; ++j) {
-          z += row_[j][g] * here[c * n + j][g];
+          z += rows_[side][j][g] * here[c * n + j][g];
         }
         result[g] = components == 1 ? std::fabs(z) : result[g] + z * z;
       }
@@ -153,10 +160,10 @@ class PhaseKernels::LagSums {
   }
 
   const PhaseKernels* kernels_;
-  const double* power_ = nullptr;
+  const double* powers_[2] = {};
   Shift shifts_[2];
   std::vector<std::vector<Vector>> columns_[2];  ///< by side, column, component and state
-  std::vector<Vector> row_;
+  std::vector<Vector> rows_[2];                  ///< of the form at both sides
   Vector value_, side_;
 };
 

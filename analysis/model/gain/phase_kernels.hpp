@@ -2,6 +2,7 @@
 // (docs/gain-proof.md, section 10).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -67,13 +68,14 @@ class PhaseKernels {
   struct Column {
     std::vector<const GridFunction*> components;
     Vector sizes;     ///< S: sum of |G_k| (|B| + error at lag k)
-    Vector bent;      ///< sum of |G_k| min(F_k D_2, 2|B|)
+    Vector bent;      ///< what a form misses in Lemma 2, but for what is with its differences
+    Vector leaned;    ///< the same for half of what the form changes over the part
     Vector mistaken;  ///< sum of |G_k| error at lag k
   };
   /// What is known of the part and its neighbours.
   struct Neighbours {
     std::size_t reach = 0;
-    std::vector<rigor::Interval> matrix;
+    Vector off;                              ///< of matrices, from the line of the part
     std::vector<std::vector<Vector>> error;  ///< by column, component
   };
 
@@ -83,6 +85,10 @@ class PhaseKernels {
   void widen(const std::vector<PhasePart>& parts, std::size_t index, std::size_t reach,
              Neighbours& neighbours) const;
   void add_lag(std::size_t lag, const Neighbours& neighbours);
+  void add_defect(std::size_t lag, const Neighbours& neighbours);
+  /// The larger one of both ends, and half of the difference, of an entry of the power.
+  [[nodiscard]] double size_of_power(std::size_t lag, std::size_t entry) const;
+  [[nodiscard]] double lean_of_power(std::size_t lag, std::size_t entry) const;
   [[nodiscard]] static std::optional<Vector> least_total(const std::vector<PhaseKernels>& all,
                                                          const std::vector<Vector>& sums);
   [[nodiscard]] double half_width_at(std::size_t lag) const;
@@ -94,7 +100,8 @@ class PhaseKernels {
   std::size_t states_, phases_, horizon_;
   double slew_;
   std::vector<Column> columns_;
-  Vector powers_;                      ///< of the matrix, by lag, row by row
+  /// Powers of the matrix at both ends of the part, by lag, row by row.
+  std::array<Vector, 2> powers_;
   Vector power_sum_;                   ///< of absolute values
   Vector defect_;                      ///< M
   std::vector<Vector> largest_power_;  ///< by block: of absolute values from it on

@@ -45,11 +45,12 @@ void PhaseKernels::find_columns() {
   }
   columns_[kSlew].components.push_back(&part_->slew);
   for (const auto& [input, column] : part_->columns) {
-    columns_.push_back({{&column}, {}, {}, {}});
+    columns_.push_back({{&column}, {}, {}, {}, {}});
   }
   for (Column& each : columns_) {
     each.sizes.assign(states_, 0.0);
     each.bent.assign(states_, 0.0);
+    each.leaned.assign(states_, 0.0);
     each.mistaken.assign(states_, 0.0);
   }
 }
@@ -98,8 +99,9 @@ void PhaseKernels::widen(const std::vector<PhasePart>& parts, std::size_t index,
       continue;
     }
     const PhasePart& other = parts[q];
-    for (std::size_t i = 0; i < neighbours.matrix.size(); ++i) {
-      neighbours.matrix[i] = hull(neighbours.matrix[i], other.matrix[i]);
+    for (std::size_t i = 0; i < neighbours.off.size() && distance > 0; ++i) {
+      neighbours.off[i] =
+          larger_or_nan(neighbours.off[i], rigor::magnitude(other.matrix[i] - Interval(part_->middle[i])));
     }
     std::vector<std::vector<const GridFunction*>> theirs(kFirstGate);
     for (const GridFunction& each : other.noise) {
@@ -116,8 +118,8 @@ void PhaseKernels::widen(const std::vector<PhasePart>& parts, std::size_t index,
         for (std::size_t i = 0; i < states_; ++i) {
           double far = 0.0;
           for (std::size_t g = 0; g < phases_; ++g) {
-            far = larger_or_nan(far,
-                                rigor::magnitude(Interval(its.values[i][g]) - Interval(mine.values[i][g])));
+            far = larger_or_nan(
+                far, rigor::magnitude(Interval(its.values[0][i][g]) - Interval(mine.values[0][i][g])));
           }
           double& error = neighbours.error[l][c][i];
           error = larger_or_nan(error, far + its.error[i]);
@@ -128,26 +130,73 @@ void PhaseKernels::widen(const std::vector<PhasePart>& parts, std::size_t index,
   neighbours.reach = reach;
 }
 
+double PhaseKernels::size_of_power(std::size_t lag, std::size_t entry) const {
+  const std::size_t at = lag * states_ * states_ + entry;
+  return larger_or_nan(std::fabs(powers_[0][at]), std::fabs(powers_[1][at]));
+}
+
+double PhaseKernels::lean_of_power(std::size_t lag, std::size_t entry) const {
+  const std::size_t at = lag * states_ * states_ + entry;
+  return 0.5 * rigor::magnitude(Interval(powers_[1][at]) - Interval(powers_[0][at]));
+}
+
 void PhaseKernels::add_lag(std::size_t lag, const Neighbours& neighbours) {
   const double points = static_cast<double>(phases_) / (2.0 * std::numbers::pi) * (1.0 + 1e-12);
-  const double length = 1.0 + 2.0 * static_cast<double>(lag + 1) * half_width_at(lag) * points;
-  const double spread = (length - 1.0) * (length - 1.0) + 1.0;
-  const double bend = std::min(0.25 * length * std::ceil(length), 0.125 * spread + 0.25 * std::sqrt(spread));
-  const double* power = powers_.data() + lag * states_ * states_;
+  // How far apart the phases are from which the ends of the part come, in cells.
+  const double spread = 2.0 * static_cast<double>(lag + 1) * half_width_at(lag) * points;
+  const double bend = std::min(0.25 * spread * std::ceil(spread), 0.125 * spread * spread + 0.25 * spread);
   for (std::size_t l = 0; l < columns_.size(); ++l) {
     Column& column = columns_[l];
     for (std::size_t c = 0; c < column.components.size(); ++c) {
       const GridFunction& of = *column.components[c];
       const Vector& error = neighbours.error[l][c];
       for (std::size_t j = 0; j < states_; ++j) {
-        const double bent = std::min(bend * of.second_difference[j], 2.0 * of.largest[j]);
+        const double twice = 2.0 * of.largest[j];
+        const double bent = 0.25 * of.second_difference[j] + std::min(bend * of.second_difference[j], twice) +
+                            std::min(0.5 * spread * of.lean_difference[j], 2.0 * of.lean[j]);
+        const double moved = std::min(0.5 * spread * of.first_difference[j] + of.lean[j], twice);
         for (std::size_t i = 0; i < states_; ++i) {
-          const double size = std::fabs(power[i * states_ + j]);
+          const double size = size_of_power(lag, i * states_ + j);
+          const double lean = lean_of_power(lag, i * states_ + j);
           column.sizes[i] += size * (of.largest[j] + error[j]);
-          column.bent[i] += size * bent;
+          column.bent[i] += size * bent + lean * moved;
+          column.leaned[i] += size * moved + lean * of.largest[j];
           column.mistaken[i] += size * error[j];
         }
       }
+    }
+  }
+}
+
+/// |G_(k+1) - G_k A| at all frequencies of the part: a polynomial of the second degree, whose square is
+/// between 0 and 1.
+void PhaseKernels::add_defect(std::size_t lag, const Neighbours& neighbours) {
+  const std::size_t n = states_;
+  const auto entry = [&](std::size_t of_lag, std::size_t at, double sign) {
+    if (of_lag == horizon_) {
+      return Interval(0.0);
+    }
+    const std::size_t place = of_lag * n * n + at;
+    return Interval(0.5) * (Interval(powers_[1][place]) + Interval(sign) * Interval(powers_[0][place]));
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      Interval constant = entry(lag + 1, i * n + j, 1.0);
+      Interval linear = entry(lag + 1, i * n + j, -1.0);
+      Interval square(0.0);
+      double off = 0.0;
+      for (std::size_t m = 0; m < n; ++m) {
+        const Interval middle = entry(lag, i * n + m, 1.0);
+        const Interval lean = entry(lag, i * n + m, -1.0);
+        const Interval matrix(part_->middle[m * n + j]);
+        const Interval matrix_lean(part_->lean[m * n + j]);
+        constant -= middle * matrix;
+        linear -= lean * matrix + middle * matrix_lean;
+        square -= lean * matrix_lean;
+        off += size_of_power(lag, i * n + m) * neighbours.off[m * n + j];
+      }
+      defect_[i * n + j] += larger_or_nan(rigor::magnitude(constant), rigor::magnitude(constant + square)) +
+                            rigor::magnitude(linear) + off;
     }
   }
 }
@@ -158,14 +207,28 @@ void PhaseKernels::find_lags(const std::vector<PhasePart>& parts, std::size_t in
   defect_.assign(n * n, 0.0);
   largest_power_.assign(kBlocks + 1, Vector(n * n, 0.0));
   Neighbours neighbours;
-  neighbours.matrix = part_->matrix;
+  neighbours.off = part_->off;
   for (const Column& each : columns_) {
     neighbours.error.emplace_back(each.components.size(), Vector(n, 0.0));
   }
   widen(parts, index, 0, neighbours);
-  Vector power(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    power[i * n + i] = 1.0;
+  for (const std::size_t end : {0U, 1U}) {
+    const double sign = end == 0 ? -1.0 : 1.0;
+    Vector& powers = powers_[end];
+    powers.assign(horizon_ * n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      powers[i * n + i] = 1.0;
+    }
+    for (std::size_t k = 0; k + 1 < horizon_; ++k) {
+      const double* power = powers.data() + k * n * n;
+      double* next = powers.data() + (k + 1) * n * n;
+      for (std::size_t i = 0; i < n * n; ++i) {
+        for (std::size_t m = 0; m < n; ++m) {
+          const std::size_t at = m * n + i % n;
+          next[i] += power[i / n * n + m] * (part_->middle[at] + sign * part_->lean[at]);
+        }
+      }
+    }
   }
   for (std::size_t k = 0; k < horizon_; ++k) {
     if (slew_ > 0.0) {
@@ -175,26 +238,14 @@ void PhaseKernels::find_lags(const std::vector<PhasePart>& parts, std::size_t in
         widen(parts, index, reach, neighbours);
       }
     }
-    powers_.insert(powers_.end(), power.begin(), power.end());
-    Vector next(n * n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        const double size = std::fabs(power[i * n + j]);
-        power_sum_[i * n + j] += size;
-        double& largest = largest_power_[k * kBlocks / horizon_][i * n + j];
-        largest = larger_or_nan(largest, size);
-        for (std::size_t m = 0; m < n && k + 1 < horizon_; ++m) {
-          next[i * n + j] += power[i * n + m] * part_->middle[m * n + j];
-        }
-        Interval defect(next[i * n + j]);
-        for (std::size_t m = 0; m < n; ++m) {
-          defect -= Interval(power[i * n + m]) * neighbours.matrix[m * n + j];
-        }
-        defect_[i * n + j] += rigor::magnitude(defect);
-      }
+    for (std::size_t i = 0; i < n * n; ++i) {
+      const double size = size_of_power(k, i);
+      power_sum_[i] += size;
+      double& largest = largest_power_[k * kBlocks / horizon_][i];
+      largest = larger_or_nan(largest, size);
     }
+    add_defect(k, neighbours);
     add_lag(k, neighbours);
-    power = std::move(next);
   }
   for (std::size_t block = kBlocks; block-- > 0;) {
     for (std::size_t i = 0; i < n * n; ++i) {

@@ -1,6 +1,7 @@
 #include "analysis/model/gain/phase_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -114,7 +115,7 @@ std::size_t horizon_of(const FloquetCell& cell) {
 
 }  // namespace
 
-std::optional<PhaseGains> PhaseLoop::gains_of(std::size_t part) const {
+std::optional<PhaseGains> PhaseLoop::gains_of(std::size_t part, bool moves) const {
   const std::size_t cell = part / gridding_.parts;
   auto made = phase_part(tracker_, cells_[cell], gridding_, part % gridding_.parts);
   if (!made) {
@@ -122,14 +123,50 @@ std::optional<PhaseGains> PhaseLoop::gains_of(std::size_t part) const {
   }
   std::vector<PhasePart> alone;
   alone.push_back(*std::move(made));
-  return PhaseGains::make(std::move(alone), gridding_, 0.0);
+  constexpr double kSlowest = 1e-300;
+  return PhaseGains::make(std::move(alone), gridding_, moves ? kSlowest : 0.0);
+}
+
+bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
+  // With more phases as many parts are needed as with fewer.
+  const std::size_t fewest_parts =
+      std::isfinite(best.missed) ? std::max<std::size_t>(best.gridding.parts / 2, 2) : 2;
+  const std::size_t most_parts = (with_slew ? 128 : 64) / cells_.size();
+  constexpr double kFine = 0.06;  // of the gain is missed
+  constexpr double kBetter = 0.9;
+  constexpr double kNear = 1.03;
+  double last_gain = INFINITY;
+  for (std::size_t parts = fewest_parts; parts <= most_parts; parts *= 2) {
+    const PhaseGridding before = std::exchange(gridding_, {gridding_.phases, gridding_.horizon, parts});
+    auto gains = gains_of(0, with_slew);
+    const double missed = gains ? gains->missed_share() : INFINITY;
+    const double gain = gains ? gains->largest_gain() : INFINITY;
+    if (!(missed < kBetter * best.missed) && last_gain < kNear * gain && std::isfinite(best.missed)) {
+      gridding_ = before;
+      break;
+    }
+    if (gains && missed < best.missed) {
+      best = {missed, gridding_};
+      probe_ = std::make_shared<PhaseGains>(*std::move(gains));
+    }
+    if (missed < kFine && last_gain < kNear * gain) {
+      return true;
+    }
+    last_gain = gain;
+  }
+  return false;
+}
+
+/// The checker does the same with as many phases.
+void PhaseLoop::order_factors() {
+  tracker_ = *given_;
+  recursion_ = std::make_shared<trackers::Recursion>(*given_->recursion);
+  recursion_->step = with_vanishing_factors_last(
+      given_->recursion->step, registers_on(*given_, *tone_, cells_.front(), gridding_.phases));
+  tracker_.recursion = recursion_.get();
 }
 
 bool PhaseLoop::find_gridding(bool with_slew) {
-  constexpr std::size_t kFewestParts = 8;
-  const std::size_t most_parts = (with_slew ? 128 : 256) / cells_.size();
-  constexpr double kFine = 0.1;  // of the gain is missed
-  constexpr double kBetter = 0.9;
   gridding_.horizon = 0;
   for (const FloquetCell& each : cells_) {
     const std::size_t horizon = horizon_of(each);
@@ -138,25 +175,21 @@ bool PhaseLoop::find_gridding(bool with_slew) {
     }
     gridding_.horizon = std::max(gridding_.horizon, horizon);
   }
-  double best = INFINITY;
-  for (std::size_t parts = kFewestParts; parts <= most_parts; parts *= 2) {
-    PhaseGridding finer = gridding_;
-    finer.parts = parts;
-    std::swap(finer, gridding_);
-    auto gains = gains_of(0);
-    const double missed = gains ? gains->missed_share() : INFINITY;
-    if (!(missed < kBetter * best) && std::isfinite(best)) {
-      gridding_ = finer;
-      break;
-    }
-    if (gains) {
-      best = missed;
-      probe_ = std::make_shared<PhaseGains>(*std::move(gains));
-    }
-    if (best < kFine) {
+  constexpr std::array<std::size_t, 2> kPhases{128, 256};
+  Fineness best;
+  for (const std::size_t phases : kPhases) {
+    gridding_.phases = phases;
+    order_factors();
+    // With a slew all parts are kept, and all look at each other.
+    if (find_parts(with_slew, best) || with_slew) {
       break;
     }
   }
+  if (gridding_.phases != best.gridding.phases) {
+    gridding_.phases = best.gridding.phases;
+    order_factors();
+  }
+  gridding_ = best.gridding;
   return probe_ != nullptr;
 }
 
@@ -173,15 +206,11 @@ std::optional<PhaseLoop> PhaseLoop::make(const TrackerModel& tracker, const Trac
       }
       PhaseLoop loop;
       loop.cells_ = *std::move(cells);
-      // With a slew all parts are kept, and all look at each other.
-      loop.gridding_.phases = with_slew ? 64 : 128;
-      loop.tracker_ = tracker;
-      loop.recursion_ = std::make_shared<trackers::Recursion>(*tracker.recursion);
-      loop.recursion_->step = with_vanishing_factors_last(
-          tracker.recursion->step, registers_on(tracker, tone, loop.cells_.front(), loop.gridding_.phases));
-      loop.tracker_.recursion = loop.recursion_.get();
+      loop.given_ = &tracker;
+      loop.tone_ = &tone;
       if (loop.find_gridding(with_slew) &&
-          (!best || loop.probe().missed_share() < best->probe().missed_share())) {
+          (!best || loop.probe().largest_gain() * (1.0 + loop.probe().missed_share()) <
+                        best->probe().largest_gain() * (1.0 + best->probe().missed_share()))) {
         best = std::move(loop);
       }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,7 +17,7 @@ class PhaseLoop {
  public:
   /// Empty where there is no steady state or no basis, where errors do not decay, or where the deadline is
   /// over. `with_slew`: for bounds with a slew, too, which needs one cell. Throws NoFrame where the rules do
-  /// not cover the loop. Needs the upward rounding mode.
+  /// not cover the loop. Tracker and tone must outlive it. Needs the upward rounding mode.
   [[nodiscard]] static std::optional<PhaseLoop> make(const TrackerModel& tracker, const TrackedTone& tone,
                                                      const rigor::Interval& band, bool with_slew,
                                                      const search::Deadline& deadline);
@@ -36,9 +37,20 @@ class PhaseLoop {
 
  private:
   PhaseLoop() = default;
-  [[nodiscard]] std::optional<PhaseGains> gains_of(std::size_t part) const;
+  /// How finely the loop was cut, and what share of the gain was missed.
+  struct Fineness {
+    double missed = std::numeric_limits<double>::infinity();
+    PhaseGridding gridding;
+  };
+  /// `moves`: as one of several parts.
+  [[nodiscard]] std::optional<PhaseGains> gains_of(std::size_t part, bool moves = false) const;
+  void order_factors();
   bool find_gridding(bool with_slew);
+  /// Whether it is fine enough with some number of parts.
+  bool find_parts(bool with_slew, Fineness& best);
 
+  const TrackerModel* given_ = nullptr;
+  const TrackedTone* tone_ = nullptr;
   TrackerModel tracker_;
   std::shared_ptr<trackers::Recursion> recursion_;  ///< with factors in a better order
   std::vector<FloquetCell> cells_;

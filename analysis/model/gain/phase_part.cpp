@@ -53,6 +53,9 @@ bool add_step(const PhaseStep& step, bool is_first, PhasePart& part) {
       }
       Interval& entry = part.matrix[i * n + j];
       entry = is_first ? range : hull(entry, range);
+      double& off = part.off[i * n + j];
+      off = larger_or_nan(
+          off, distance_from_line(step.matrix[i][j], part.middle[i * n + j], part.lean[i * n + j]));
       double& inverse = part.inverse[i * n + j];
       inverse = larger_or_nan(inverse, size_of(step.inverse[i][j]));
       double& slope = part.basis_slope[i * n + j];
@@ -163,7 +166,14 @@ std::optional<PhasePart> phase_part(const TrackerModel& tracker, const FloquetCe
   part.matrix.resize(n * n);
   part.inverse.assign(n * n, 0.0);
   part.basis_slope.assign(n * n, 0.0);
+  part.off.assign(n * n, 0.0);
   part.residual.assign(n, 0.0);
+  for (const std::vector<double>& entry : cell.matrix) {
+    const double low = rigor::midpoint(polynomial(entry, Interval(place.z - place.half_z)));
+    const double high = rigor::midpoint(polynomial(entry, Interval(place.z + place.half_z)));
+    part.middle.push_back(0.5 * (low + high));
+    part.lean.push_back(0.5 * (high - low));
+  }
   std::vector<PhaseStep> steps;
   steps.reserve(gridding.phases);
   for (std::size_t g = 0; g < gridding.phases; ++g) {
@@ -180,9 +190,6 @@ std::optional<PhasePart> phase_part(const TrackerModel& tracker, const FloquetCe
   part.frequency = rigor::midpoint(middle);
   part.half_width =
       (Interval(cell.curve.half_width) * Interval(place.half_z) + middle - Interval(part.frequency)).upper();
-  for (const std::vector<double>& entry : cell.matrix) {
-    part.middle.push_back(rigor::midpoint(polynomial(entry, Interval(place.z))));
-  }
   return part;
 }
 
@@ -208,7 +215,11 @@ std::optional<PhasePart> with_slew(PhasePart part, double slew) {
     }
     return result;
   };
+  for (GridFunction& each : part.forms) {
+    each = without_lean(each);
+  }
   const auto widen = [&](GridFunction& column) {
+    column = without_lean(column);
     std::vector<double> sizes = column.largest;
     for (std::size_t i = 0; i < n; ++i) {
       sizes[i] += column.error[i];
@@ -228,6 +239,10 @@ std::optional<PhasePart> with_slew(PhasePart part, double slew) {
       part.matrix[i * n + j] += Interval::from_bounds(-more[i], more[i]);
     }
     part.slew.error[j] += slew * part.slew_bend[j];
+  }
+  for (std::size_t i = 0; i < n * n; ++i) {
+    part.lean[i] = 0.0;
+    part.off[i] = rigor::magnitude(part.matrix[i] - Interval(part.middle[i]));
   }
   for (GridFunction& each : part.noise) {
     widen(each);

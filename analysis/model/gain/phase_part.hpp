@@ -41,6 +41,8 @@ struct PhasePart {
   std::vector<double> slew_bend;        ///< what the bend adds to its error, times the slew
   std::vector<rigor::Interval> matrix;  ///< at all phases and frequencies
   std::vector<double> middle;           ///< the matrix of the cell in the middle of the part, nearly
+  std::vector<double> lean;             ///< half of what it changes over the part, nearly
+  std::vector<double> off;              ///< sup of how far the matrix is from the line of both
   std::vector<double> residual;         ///< sup
   std::vector<double> inverse;          ///< sup of the inverse of the basis
   std::vector<double> basis_slope;      ///< sup of the inverse times the derivative of the basis
@@ -54,7 +56,8 @@ struct PhasePart {
                                                   const PhaseGridding& gridding, std::size_t part);
 
 /// With everything that a slew of this size, rad/sample per sample, does to the matrix, the columns and the
-/// residual. Empty where it is too large for the basis.
+/// residual; with one, forms, columns and the matrix do not lean, because earlier samples may be of other
+/// parts. Empty where it is too large for the basis.
 [[nodiscard]] std::optional<PhasePart> with_slew(PhasePart part, double slew);
 
 }  // namespace veritrack::model

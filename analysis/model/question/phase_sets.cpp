@@ -16,9 +16,6 @@ using rigor::Interval;
 
 namespace {
 
-/// Farther from the linear recursion tubes are better.
-constexpr double kNear = 2.5;
-
 /// For a checker whose bounds are cruder.
 double with_room(double bound) {
   return rigor::mul_up(bound, 1.025);
@@ -29,18 +26,17 @@ class PhaseSets {
   PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance, KnownLimits known)
       : question_(&question), loop_(&loop), half_distance_(half_distance), known_(known) {}
 
-  /// Empty where the bounds are far from those of the linear recursion.
+  /// Empty where no bounds close without noise. Those for the assumed noise and slew need not close.
   [[nodiscard]] std::optional<PhaseProof> all() {
     const LoopDisturbance assumed{question_->noise, 0.0, {}};
-    const auto probed = loop_->probe().errors(assumed);
-    if (!probed || !(probed->long_run <= kNear * (probed->linear + loop_->probe().largest_bias()))) {
+    closes_for_assumed_ = loop_->probe().errors(assumed).has_value();
+    if (!closes_for_assumed_ && !question_->largest_noise) {
       return std::nullopt;
     }
-    find_joint();
-    if (!find_sizes() || (question_->slew > 0.0 && !assumed_)) {
-      return std::nullopt;
+    if (closes_for_assumed_) {
+      find_joint();
     }
-    return proof();
+    return find_sizes() ? std::optional(proof()) : std::nullopt;
   }
 
  private:
@@ -106,12 +102,9 @@ class PhaseSets {
       return false;
     }
     const bool moves = question_->slew > 0.0;
-    if (!moves) {
+    if (!moves && closes_for_assumed_) {
       part.assumed = question_->noise > 0.0 ? gains.errors({question_->noise, 0.0, {}}) : part.still;
-      if (!part.assumed) {
-        return false;
-      }
-      if (question_->assumes_start) {
+      if (part.assumed && question_->assumes_start) {
         part.from_starts = gains.errors({question_->noise, 0.0, start_of(1.0)});
       }
     }
@@ -197,7 +190,12 @@ class PhaseSets {
 
   [[nodiscard]] PhaseProof proof() const {
     constexpr double kRoom = 0.975;
-    PhaseProof proof{loop_->cells(), loop_->gridding(), *assumed_, set_of(kStarts, {}, still_), {}, {}};
+    PhaseProof proof{loop_->cells(),
+                     loop_->gridding(),
+                     assumed_ ? *assumed_ : *still_,
+                     set_of(kStarts, {}, still_),
+                     {},
+                     {}};
     ProvedSet& starts = proof.starts;
     const double width = with_room(still_->ripple);
     starts.bias = still_->mean + Interval::from_bounds(-0.03 * width - 1e-13, 0.03 * width + 1e-13);
@@ -226,6 +224,7 @@ class PhaseSets {
   const PhaseLoop* loop_;
   double half_distance_;
   KnownLimits known_;
+  bool closes_for_assumed_ = false;
   double probed_noise_ = 0.0, probed_reach_ = 0.0;
   std::optional<PhaseErrors> still_, assumed_, from_starts_, at_noise_, at_reach_;
   double noise_ = 0.0, reach_ = 0.0;
@@ -267,8 +266,7 @@ std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, Know
     }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
     auto proof = PhaseSets(question, *loop, half_distance, known).all();
-    return proof ? std::move(proof)
-                 : nothing("the bounds of its errors are far from those of the linear loop");
+    return proof ? std::move(proof) : nothing("the bounds of its errors do not close");
   } catch (const NoFrame& objection) {
     return nothing(objection.what());
   }

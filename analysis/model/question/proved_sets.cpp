@@ -134,7 +134,9 @@ double settled_error_of(const ProvedSets& sets) {
 }
 
 double best_settled_error_of(const ProvedSets& sets) {
-  return std::min(settled_error_of(sets), sets.best().settled_error);
+  const ProvedSet& best = sets.best();
+  return best.is_without_tubes() ? std::min(settled_error_of(sets), best.settled_error)
+                                 : settled_error_of(sets);
 }
 
 }  // namespace veritrack::model

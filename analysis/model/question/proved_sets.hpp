@@ -27,8 +27,8 @@ struct GainProof {
 struct PhaseProof {
   std::vector<FloquetCell> cells;  ///< from the lowest frequencies on
   PhaseGridding gridding;          ///< of each cell
-  PhaseErrors errors;              ///< for what is assumed
-  ProvedSet starts, assumed;       ///< as those of ProvedSets
+  PhaseErrors errors;         ///< for what is assumed; without noise and slew where `assumed` is not proved
+  ProvedSet starts, assumed;  ///< as those of ProvedSets
   std::optional<ProvedSet> noise;
 };
 

@@ -11,18 +11,35 @@ namespace {
 
 constexpr std::size_t kMostNodes = 4096;
 
+/// Whether both certainly compute the same; numbers only where they are exact.
+bool are_same(const PhaseNode& x, const PhaseNode& y) {
+  return x.operation == y.operation && x.operation != PhaseOperation::within && x.first == y.first &&
+         x.second == y.second && (x.operation != PhaseOperation::number || certainly_equal(x.low, y.low));
+}
+
+/// The number of the node, which is that of an earlier one where both are the same: what is computed twice is
+/// one value.
+std::size_t added_to(std::vector<PhaseNode>& nodes, PhaseNode node) {
+  for (std::size_t earlier = 0; earlier < nodes.size(); ++earlier) {
+    if (are_same(nodes[earlier], node)) {
+      return earlier;
+    }
+  }
+  if (nodes.size() >= kMostNodes) {
+    throw NotCovered("too many operations");
+  }
+  spend(static_cast<std::int64_t>(nodes.size() / 64 + 1));
+  nodes.push_back(std::move(node));
+  return nodes.size() - 1;
+}
+
 /// A scalar that records what is computed from states and samples; everything else is a number.
 class Recorded {
  public:
   Recorded(const Ball& number) : number_(number) {}  // NOLINT(google-explicit-constructor)
   Recorded(double number) : number_(number) {}       // NOLINT(google-explicit-constructor)
-  Recorded(std::vector<PhaseNode>& nodes, PhaseNode node) : nodes_(&nodes), node_(nodes.size()) {
-    if (nodes.size() >= kMostNodes) {
-      throw NotCovered("too many operations");
-    }
-    spend();
-    nodes.push_back(std::move(node));
-  }
+  Recorded(std::vector<PhaseNode>& nodes, PhaseNode node)
+      : nodes_(&nodes), node_(added_to(nodes, std::move(node))) {}
 
   [[nodiscard]] bool is_number() const { return nodes_ == nullptr; }
   [[nodiscard]] const Ball& number() const { return number_; }

@@ -23,6 +23,13 @@ PhaseGroup::PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, 
   if (parts_.empty() || !(slew >= 0.0) || (slew == 0.0 && parts_.size() != 1)) {
     return;
   }
+  if (slew > 0.0) {
+    flat_.reserve(parts_.size());
+    for (const PhasePart*& part : parts_) {
+      flat_.push_back(without_lean(*part));
+      part = &flat_.back();
+    }
+  }
   std::vector<Widened> all;
   for (const PhasePart* part : parts_) {
     std::optional<Widened> wide_part = widened(*part);
@@ -68,7 +75,7 @@ std::vector<const Table*> PhaseGroup::defects() const {
 }
 
 bool PhaseGroup::close(const std::vector<Widened>& all) {
-  const std::size_t n = parts_.front()->matrix.size();
+  const std::size_t n = parts_.front()->off.size();
   std::vector<double> residual(n, 0.0);
   for (const Widened& part : all) {
     raise_all(residual, part.residual);

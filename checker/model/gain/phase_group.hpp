@@ -18,6 +18,12 @@ class PhaseGroup {
   /// go from low frequencies to high ones, and must outlive this.
   PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, std::size_t horizon, double slew);
 
+  PhaseGroup(PhaseGroup&&) = default;
+  PhaseGroup& operator=(PhaseGroup&&) = default;
+  PhaseGroup(const PhaseGroup&) = delete;  // parts refer to those of the group itself
+  PhaseGroup& operator=(const PhaseGroup&) = delete;
+  ~PhaseGroup() = default;
+
   /// Whether all sums are bounded, and what starts and early inputs leave dies out. Nothing else is known
   /// where it is not so.
   [[nodiscard]] bool is_certain() const { return is_certain_; }
@@ -53,6 +59,7 @@ class PhaseGroup {
   [[nodiscard]] bool close(const std::vector<Widened>& all);
   [[nodiscard]] std::vector<const Table*> defects() const;
 
+  std::vector<PhasePart> flat_;  ///< with a slew: the parts without what leans
   std::vector<const PhasePart*> parts_;
   std::size_t phases_;
   double slew_;

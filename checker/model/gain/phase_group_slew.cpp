@@ -37,12 +37,12 @@ std::optional<Table> closed_multiplier(const Table& n) {
   return result;
 }
 
-/// The largest difference at grid points, by component.
+/// The largest difference at grid points, by component, of functions that do not lean.
 std::vector<double> difference_of(const GridFunction& x, const GridFunction& y) {
   std::vector<double> result(x.error.size(), 0.0);
-  for (std::size_t g = 0; g < x.values.size(); ++g) {
+  for (std::size_t g = 0; g < x.values[0].size(); ++g) {
     for (std::size_t i = 0; i < result.size(); ++i) {
-      result[i] = std::max(result[i], up(std::abs(x.values[g][i] - y.values[g][i])));
+      result[i] = std::max(result[i], up(std::abs(x.values[0][g][i] - y.values[0][g][i])));
     }
   }
   return result;
@@ -51,7 +51,7 @@ std::vector<double> difference_of(const GridFunction& x, const GridFunction& y) 
 }  // namespace
 
 std::optional<PhaseGroup::Widened> PhaseGroup::widened(const PhasePart& part) const {
-  Widened result{Table(part.matrix.size(), std::vector<double>(part.matrix.size(), 0.0)), {}, part.residual};
+  Widened result{Table(part.off.size(), std::vector<double>(part.off.size(), 0.0)), {}, part.residual};
   for (const PhaseInput& input : part.inputs) {
     result.column_errors.push_back({input.first.error, input.second.error});
   }
@@ -69,7 +69,7 @@ std::optional<PhaseGroup::Widened> PhaseGroup::widened(const PhasePart& part) co
   if (!more) {
     return std::nullopt;
   }
-  Table size = part.matrix;
+  Table size = part.off;
   for (std::size_t i = 0; i < size.size(); ++i) {
     for (std::size_t j = 0; j < size.size(); ++j) {
       size[i][j] = largest_in({part.matrix_low[i][j], part.matrix_high[i][j]});
@@ -113,7 +113,11 @@ std::vector<PhaseStage> PhaseGroup::stages(const std::vector<Widened>& all, std:
                      all[other].column_errors};
     for (std::size_t i = 0; i < stage.matrix_error.size(); ++i) {
       for (std::size_t j = 0; j < stage.matrix_error.size(); ++j) {
-        const double middle = parts_[part]->matrix[i][j];
+        if (slew_ == 0.0) {
+          stage.matrix_error[i][j] = parts_[part]->off[i][j];
+          continue;
+        }
+        const double middle = parts_[part]->matrix[0][i][j];
         const double distance = std::max(std::abs(parts_[other]->matrix_high[i][j] - middle),
                                          std::abs(parts_[other]->matrix_low[i][j] - middle));
         // Each difference is rounded once.

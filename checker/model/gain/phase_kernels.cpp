@@ -27,7 +27,7 @@ bool is_stage(const PhaseStage& stage, const PhaseLoop& loop, std::size_t n) {
   for (std::size_t input = 0; is_one && input < loop.inputs.size(); ++input) {
     for (const std::size_t part : {0U, 1U}) {
       const std::vector<double>& errors = stage.column_errors[input][part];
-      const bool is_there = part == 0 || !loop.inputs[input].second.values.empty();
+      const bool is_there = part == 0 || !loop.inputs[input].second.is_empty();
       is_one =
           is_one && errors.size() == (is_there ? n : 0) &&
           std::all_of(errors.begin(), errors.end(), [](double x) { return std::isfinite(x) && x >= 0.0; });
@@ -45,7 +45,7 @@ bool has_band(const PhaseLoop& loop) {
 }
 
 bool is_loop(const PhaseLoop& loop) {
-  const std::size_t n = loop.matrix.size();
+  const std::size_t n = loop.matrix[0].size();
   const std::size_t phases = loop.phases;
   if (n < 1 || n > kMostPhaseStates || phases < 8 || phases > kMostPhases || (phases & (phases - 1)) != 0 ||
       loop.horizon < 1 || loop.horizon > kLongestPhaseHorizon || loop.forms.empty() || loop.inputs.empty() ||
@@ -54,15 +54,17 @@ bool is_loop(const PhaseLoop& loop) {
     return false;
   }
   const auto is_grid = [&](const GridFunction& f) { return is_grid_function(f, phases, n); };
-  return std::all_of(loop.matrix.begin(), loop.matrix.end(),
-                     [&](const auto& row) {
-                       return row.size() == n &&
-                              std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
-                     }) &&
+  const auto is_matrix = [&](const Table& matrix) {
+    return matrix.size() == n && std::all_of(matrix.begin(), matrix.end(), [&](const auto& row) {
+             return row.size() == n &&
+                    std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
+           });
+  };
+  return is_matrix(loop.matrix[0]) && is_matrix(loop.matrix[1]) &&
          std::all_of(loop.forms.begin(), loop.forms.end(), is_grid) &&
          std::all_of(loop.inputs.begin(), loop.inputs.end(),
                      [&](const PhaseInput& input) {
-                       return is_grid(input.first) && (input.second.values.empty() || is_grid(input.second));
+                       return is_grid(input.first) && (input.second.is_empty() || is_grid(input.second));
                      }) &&
          std::all_of(loop.stages.begin(), loop.stages.end(),
                      [&](const PhaseStage& stage) { return is_stage(stage, loop, n); });
@@ -90,7 +92,7 @@ PhaseSizes::PhaseSizes(const std::vector<double>& sizes) : most{sizes} {
 
 PhaseKernels::PhaseKernels(const PhaseLoop& loop)
     : phases_(loop.phases),
-      states_(loop.matrix.size()),
+      states_(loop.matrix[0].size()),
       horizon_(loop.horizon),
       forms_(loop.forms.size()),
       inputs_(loop.inputs.size()) {

@@ -10,7 +10,7 @@
 
 namespace veritrack::checker {
 
-/// Columns of an input of two components, in a disc. `second` has no values where there is one component.
+/// Columns of an input of two components, in a disc. `second` is empty where there is one component.
 struct PhaseInput {
   GridFunction first;
   GridFunction second;
@@ -19,7 +19,8 @@ struct PhaseInput {
 /// What earlier samples, whose frequencies may be in other parts, may differ by, from a lag on.
 struct PhaseStage {
   std::size_t first_lag = 0;
-  Table matrix_error;                                             ///< of A^(k), from the matrix of the loop
+  /// Of A^(k), from the line between the matrices of the loop.
+  Table matrix_error;
   std::vector<std::array<std::vector<double>, 2>> column_errors;  ///< by input and its component
 };
 
@@ -30,7 +31,9 @@ struct PhaseLoop {
   std::size_t horizon = 0;       ///< K, at most 2^16
   double low = 0.0, high = 0.0;  ///< enclose the frequencies, in parts of a turn of 2 pi/N per sample
   double slew = 0.0;             ///< W in the same unit
-  Table matrix;                  ///< the powers of which are taken, row by row
+  /// Those of which powers are taken, at both ends of the frequencies, row by row. With a slew both are the
+  /// same, and so are both ends of forms and inputs: earlier samples may be at any frequency.
+  std::array<Table, 2> matrix;
   std::vector<GridFunction> forms;
   std::vector<PhaseInput> inputs;
   std::vector<PhaseStage> stages;  ///< from lag 0 on, by lag
@@ -86,7 +89,7 @@ class PhaseKernels {
   }
 
   std::size_t phases_, states_, horizon_, forms_, inputs_, levels_ = 0;
-  Table matrix_;
+  std::array<Table, 2> matrix_;
   std::vector<Source> sources_;             ///< of all lags, each once
   std::vector<std::size_t> source_of_lag_;  ///< the number
   std::vector<std::vector<float>> sums_;    ///< by place_of, then source and grid point

@@ -26,18 +26,22 @@ class PhaseKernels::Lags {
     for (const GridFunction& form : loop.forms) {
       form_sizes_.push_back(grid_sizes(form));
       columns_.emplace_back();
-      for (std::size_t i = 0; i < form.error.size(); ++i) {
-        columns_.back().emplace_back();
-        for (const std::vector<double>& value : form.values) {
-          columns_.back().back().push_back(value[i]);
+      for (const std::size_t end : {0U, 1U}) {
+        Table& of_end = columns_.back().at(end);
+        for (std::size_t i = 0; i < form.error.size(); ++i) {
+          of_end.emplace_back();
+          for (const std::vector<double>& value : form.values.at(end)) {
+            of_end.back().push_back(value[i]);
+          }
         }
       }
-      rows_.emplace_back(form.error.size(), std::vector<double>(loop.phases));
+      const Table nothing(form.error.size(), std::vector<double>(loop.phases));
+      rows_.push_back({nothing, nothing});
     }
     for (const PhaseInput& input : loop.inputs) {
       input_sizes_.push_back({grid_sizes(input.first), grid_sizes(input.second)});
-      ends_.push_back({std::array{ShiftedColumn(input.first), ShiftedColumn(input.second)},
-                       std::array{ShiftedColumn(input.first), ShiftedColumn(input.second)}});
+      ends_.push_back({std::array{ShiftedColumn(input.first, 0), ShiftedColumn(input.second, 0)},
+                       std::array{ShiftedColumn(input.first, 1), ShiftedColumn(input.second, 1)}});
     }
     for (std::size_t k = 0; k < kernels.forms_ * kernels.inputs_; ++k) {
       const bool has_one_size = loop.has_one_size[k % kernels.inputs_];
@@ -48,7 +52,9 @@ class PhaseKernels::Lags {
   /// The sums at the grid points, at the larger one of both frequencies.
   void add_ends(const NearPowers& powers, const LagPlace& place, std::size_t source) {
     for (std::size_t form = 0; form < rows_.size(); ++form) {
-      multiply(columns_[form], powers.power(), rows_[form]);
+      for (const std::size_t end : {0U, 1U}) {
+        multiply(columns_[form].at(end), powers.power(end), rows_[form].at(end));
+      }
     }
     for (std::size_t input = 0; input < ends_.size(); ++input) {
       for (const std::size_t part : {0U, 1U}) {
@@ -57,8 +63,8 @@ class PhaseKernels::Lags {
       }
       const std::size_t at = loop_->has_one_size[input] ? 0 : source * loop_->phases;
       for (std::size_t form = 0; form < rows_.size(); ++form) {
-        size_of(rows_[form], ends_[input][0], z_);
-        size_of(rows_[form], ends_[input][1], most_);
+        size_of(rows_[form][0], ends_[input][0], z_);
+        size_of(rows_[form][1], ends_[input][1], most_);
         double* const sum = sums_[kernels_->place_of(form, input)].data() + at;
         for (std::size_t g = 0; g < z_.size(); ++g) {
           // What is infinite or no number at either end stays so.
@@ -70,8 +76,12 @@ class PhaseKernels::Lags {
 
   void add_rest(const NearPowers& powers, const LagPlace& place, const PhaseStage& stage) {
     for (std::size_t form = 0; form < form_sizes_.size(); ++form) {
-      const std::vector<double> value = powers.through(form_sizes_[form].value);
-      const std::vector<double> first = powers.through(form_sizes_[form].first_difference);
+      const GridSizes& of_form = form_sizes_[form];
+      const std::vector<double> value = powers.through(of_form.value);
+      const std::vector<double> first = powers.through(of_form.first_difference);
+      const std::vector<double> lean = powers.through(of_form.lean);
+      const std::vector<double> by_power = powers.through_lean(of_form.value);
+      const std::vector<double> by_both = powers.through_lean(of_form.lean);
       const std::vector<double> error = powers.through(loop_->forms[form].error);
       for (std::size_t input = 0; input < input_sizes_.size(); ++input) {
         for (const std::size_t part : {0U, 1U}) {
@@ -80,10 +90,17 @@ class PhaseKernels::Lags {
           double sum = 0.0;
           for (std::size_t i = 0; i < column_error.size(); ++i) {
             // Of computing the values at the ends, too, and their places.
-            const double bend = std::min(place.bend * column.second_difference[i], 2.0 * column.value[i]) +
-                                0x1p-44 * column.value[i] + 2.0 * kPlaceError * column.first_difference[i];
+            const double twice = 2.0 * column.value[i];
+            const double bend =
+                0.25 * column.second_difference[i] +
+                std::min(place.bend * column.second_difference[i], twice) +
+                std::min(0.5 * place.spread * column.lean_difference[i], 2.0 * column.lean[i]) +
+                0x1p-44 * column.value[i] + 2.0 * kPlaceError * column.first_difference[i];
+            const double moved =
+                std::min(0.5 * place.spread * column.first_difference[i] + column.lean[i], twice);
             sum += value[i] * (bend + column_error[i]) + 0.25 * first[i] * column.first_difference[i] +
-                   error[i] * (column.value[i] + column_error[i]);
+                   error[i] * (column.value[i] + column_error[i]) + (lean[i] + by_power[i]) * moved +
+                   by_both[i] * column.value[i];
           }
           kernels_->rest_[form][input] += sum;
         }
@@ -150,7 +167,7 @@ class PhaseKernels::Lags {
   const PhaseLoop* loop_;
   std::vector<GridSizes> form_sizes_;
   std::vector<std::array<GridSizes, 2>> input_sizes_;
-  std::vector<Table> columns_, rows_;  ///< by form, component and grid point: c and c G
+  std::vector<std::array<Table, 2>> columns_, rows_;  ///< by form, end, component and grid point: c and c G
   std::vector<std::array<std::array<ShiftedColumn, 2>, 2>> ends_;  ///< by input, frequency and component
   std::vector<double> z_, other_, most_;
   Table sums_;

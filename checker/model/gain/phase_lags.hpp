@@ -10,13 +10,20 @@ constexpr double kManyRoundings = 1.0 + 0x1p-34;
 /// More than all that such sums lose to underflow.
 constexpr double kManyUnderflows = 0x1p-900;
 
-/// Powers of a matrix in doubles, and what they differ by from products of matrices near it.
+/// Powers of the matrices at both ends of the frequencies in doubles, between which they are linear, and what
+/// they differ by from products of matrices near the line between both.
 class NearPowers {
  public:
-  explicit NearPowers(const Table& matrix);
-  [[nodiscard]] const Table& power() const { return power_; }
+  explicit NearPowers(const std::array<Table, 2>& matrix);
+  [[nodiscard]] const Table& power(std::size_t end) const { return power_[end]; }
   /// |row| |G|.
-  [[nodiscard]] std::vector<double> through(const std::vector<double>& row) const;
+  [[nodiscard]] std::vector<double> through(const std::vector<double>& row) const {
+    return row_times(row, size_);
+  }
+  /// |row| |L|, where L is half of what G differs by between both ends.
+  [[nodiscard]] std::vector<double> through_lean(const std::vector<double>& row) const {
+    return row_times(row, lean_);
+  }
   /// |G| column.
   [[nodiscard]] std::vector<double> times(const std::vector<double>& column) const;
   void advance();
@@ -24,8 +31,14 @@ class NearPowers {
   void add_defect(const Table& matrix_error, bool is_last, Table& defect) const;
 
  private:
-  const Table* matrix_;
-  Table power_;
+  [[nodiscard]] static std::vector<double> row_times(const std::vector<double>& row, const Table& sizes);
+  /// The larger size of both, and half of the difference or more.
+  static void compare(const std::array<Table, 2>& ends, Table& size, Table& lean);
+
+  const std::array<Table, 2>* matrix_;
+  std::array<Table, 2> power_;
+  Table size_, lean_;  ///< of the powers
+  Table matrix_size_, matrix_lean_;
 };
 
 /// Where the inputs of a lag come from.
@@ -33,6 +46,7 @@ struct LagPlace {
   LagPlace(const PhaseLoop& loop, std::size_t lag);
   double low = 0.0, high = 0.0;  ///< omega_p -+ d_k, in parts of a turn
   double steps = 1.0;            ///< k + 1
+  double spread = 0.0;           ///< how many parts of a turn there are between what comes from both ends
   double bend = 0.0;             ///< F_k
   std::size_t first = 0;         ///< the first cell, counted from that of the form
   double cells = 1.0;            ///< from the first cell on
@@ -41,7 +55,7 @@ struct LagPlace {
 /// The values of a column at the phases of all grid points less `steps` times a frequency, by component.
 class ShiftedColumn {
  public:
-  explicit ShiftedColumn(const GridFunction& column);
+  ShiftedColumn(const GridFunction& column, std::size_t end);
   void shift(double steps, double frequency);
   [[nodiscard]] const std::vector<double>& component(std::size_t i) const { return shifted_[i]; }
   [[nodiscard]] bool is_empty() const { return twice_.empty(); }

@@ -1,7 +1,9 @@
 #include "checker/model/gain/phase_part.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "checker/model/gain/exact_number.hpp"
 #include "checker/model/place_powers.hpp"
@@ -10,33 +12,54 @@ namespace veritrack::checker {
 
 namespace {
 
-/// A function over a cell of phases: its values at both ends, in the middle of the frequencies, how far it is
-/// from the line between them where it is bent by s^2, and at most otherwise, at any phase and frequency.
+/// A function over a cell of phases at one end of the frequencies: its values at both ends of the cell, how
+/// far it is from the line between them where it is bent by s^2, and at most otherwise. It is linear in z
+/// between both ends, but for what is in the distance.
 struct Chord {
   double left = 0.0, right = 0.0, bend = 0.0, distance = 0.0;
 };
 
-/// |s - s^3| and 1 - s^4 are at most 2/27^(1/2) and 1.
-Chord chord_of(const BallPolynomial& x) {
+/// At z = -1 or 1. |s - s^3| and 1 - s^4 are at most 2/27^(1/2) and 1.
+Chord chord_of(const BallPolynomial& x, double z) {
   constexpr std::array<double, 5> kFromChord = {0.0, 0.0, 0.0, 0.3850, 1.0};
   Chord chord;
   const std::span<const double> places = x.block(0, 0);
+  std::array<double, 5> by_s{};
   double size = 0.0;
   for (std::size_t place = 0; place < places.size(); ++place) {
     const Powers powers = powers_at(place);
     const double coefficient = places[place];
     size += std::abs(coefficient);
-    if (powers.of_z > 0) {
+    if (powers.of_z > 1) {
       chord.distance += std::abs(coefficient);
-      continue;
+    } else {
+      by_s.at(static_cast<std::size_t>(powers.of_s)) += powers.of_z == 0 ? coefficient : z * coefficient;
     }
-    chord.left += powers.of_s % 2 == 0 ? coefficient : -coefficient;
-    chord.right += coefficient;
-    chord.bend += powers.of_s == 2 ? coefficient : 0.0;
-    chord.distance += kFromChord[static_cast<std::size_t>(powers.of_s)] * std::abs(coefficient);
   }
+  for (std::size_t s = 0; s < by_s.size(); ++s) {
+    chord.left += s % 2 == 0 ? by_s[s] : -by_s[s];
+    chord.right += by_s[s];
+    chord.distance += kFromChord[s] * std::abs(by_s[s]);
+  }
+  chord.bend = by_s[2];
   chord.distance = up(chord.distance + x.error() + upward_product(0x1p-46, size));
   return chord;
+}
+
+/// sup |x - (low (1 - z) + high (1 + z))/2|.
+double distance_from_ends(const BallPolynomial& x, double low, double high) {
+  const std::span<const double> places = x.block(0, 0);
+  double distance = 0.0;
+  double size = std::abs(low) + std::abs(high);
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    const Powers powers = powers_at(place);
+    const double of_line = powers.of_s > 0 || powers.of_z > 1 ? 0.0
+                           : powers.of_z == 0                 ? 0.5 * low + 0.5 * high
+                                                              : 0.5 * high - 0.5 * low;
+    distance += std::abs(places[place] - of_line);
+    size += std::abs(places[place]);
+  }
+  return up(distance + x.error() + upward_product(0x1p-46, size));
 }
 
 /// How far a function is from a line whose ends are `left` and `right` above those of its chord: bend (s^2 -
@@ -47,40 +70,44 @@ double distance_from(const Chord& chord, double left, double right) {
   return up(chord.distance + std::max(std::abs(middle), up(std::abs(chord.bend + middle))) + ends);
 }
 
-/// A vector function of all phases: from its chords, by component and cell of phases. The values are moved by
-/// half the bend towards it, so that the function is on both sides of the line.
-GridFunction grid_from(const std::vector<std::vector<Chord>>& chords) {
+using Chords = std::vector<std::vector<std::array<Chord, 2>>>;  ///< by component, cell of phases and end
+
+/// A vector function of all phases: from its chords. The values are moved by half the bend towards it, so
+/// that the function is on both sides of the line.
+GridFunction grid_from(const Chords& chords) {
   GridFunction result;
   const std::size_t phases = chords.empty() ? 0 : chords.front().size();
-  result.values.assign(phases, std::vector<double>(chords.size()));
+  result.values.fill(Table(phases, std::vector<double>(chords.size())));
   for (std::size_t i = 0; i < chords.size(); ++i) {
-    for (std::size_t g = 0; g < phases; ++g) {
-      const double bend = 0.5 * (chords[i][g].bend + chords[i][(g + phases - 1) % phases].bend);
-      result.values[g][i] = chords[i][g].left - 0.5 * bend;
-    }
     double error = 0.0;
     bool is_known = true;
-    for (std::size_t g = 0; g < phases; ++g) {
-      const Chord& chord = chords[i][g];
-      const double distance = distance_from(chord, result.values[g][i] - chord.left,
-                                            result.values[(g + 1) % phases][i] - chord.right);
-      const double size = std::abs(chord.left) + std::abs(chord.right) + std::abs(result.values[g][i]);
-      const double whole = up(distance + upward_product(0x1p-46, size));
-      is_known = is_known && std::isfinite(whole);
-      error = std::max(error, whole);
+    for (const std::size_t end : {0U, 1U}) {
+      Table& values = result.values.at(end);
+      for (std::size_t g = 0; g < phases; ++g) {
+        const Chord& chord = chords[i][g].at(end);
+        values[g][i] = chord.left - 0.25 * (chord.bend + chords[i][(g + phases - 1) % phases].at(end).bend);
+      }
+      for (std::size_t g = 0; g < phases; ++g) {
+        const Chord& chord = chords[i][g].at(end);
+        const double left = values[g][i];
+        const double distance =
+            distance_from(chord, left - chord.left, values[(g + 1) % phases][i] - chord.right);
+        const double size = std::abs(chord.left) + std::abs(chord.right) + std::abs(left);
+        const double whole = up(distance + upward_product(0x1p-46, size));
+        is_known = is_known && std::isfinite(whole);
+        error = std::max(error, whole);
+      }
     }
     result.error.push_back(is_known ? error : HUGE_VAL);
   }
   return result;
 }
 
-using Chords = std::vector<std::vector<Chord>>;
-
 /// Adds a cell of phases.
 void add_cell(Chords& chords, const PolynomialRow& row) {
   chords.resize(row.size());
   for (std::size_t i = 0; i < row.size(); ++i) {
-    chords[i].push_back(chord_of(row[i]));
+    chords[i].push_back({chord_of(row[i], -1.0), chord_of(row[i], 1.0)});
   }
 }
 
@@ -124,10 +151,12 @@ Ball bound_of_second_derivative(const PhaseSeries& series, double half_width) {
 /// Collects what the runs over all cells of phases say.
 class PartCollection {
  public:
-  PartCollection(const PhaseStructure& structure, const PhaseCell& cell, double z)
+  PartCollection(const PhaseStructure& structure, const PhaseCell& cell, const TubePart& place)
       : structure_(&structure), forms_(structure.forms.size()) {
     const std::size_t n = structure.states;
-    part_.matrix = matrix_near(cell, z, n);
+    part_.matrix = {matrix_near(cell, place.z - place.half_z, n),
+                    matrix_near(cell, place.z + place.half_z, n)};
+    part_.off.assign(n, std::vector<double>(n, 0.0));
     part_.inverse.assign(n, std::vector<double>(n, 0.0));
     part_.turned = part_.inverse;
     part_.matrix_low.assign(n, std::vector<double>(n, HUGE_VAL));
@@ -152,6 +181,9 @@ class PartCollection {
         const DoubleRange entry = range_over_cell(run.columns[j][i]);
         part_.matrix_low[i][j] = std::min(part_.matrix_low[i][j], entry.low);
         part_.matrix_high[i][j] = std::max(part_.matrix_high[i][j], entry.high);
+        const double off =
+            distance_from_ends(run.columns[j][i], part_.matrix[0][i][j], part_.matrix[1][i][j]);
+        part_.off[i][j] = std::isfinite(off) ? std::max(part_.off[i][j], off) : HUGE_VAL;
       }
       raise(part_.residual[i], run.residual[i]);
     }
@@ -204,15 +236,34 @@ bool is_known(const PhasePart& part, std::size_t phases, std::size_t states) {
       return false;
     }
   }
-  return are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
+  return are_rows(part.off) && are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
          are_sizes(part.residual) && are_sizes(part.curve_bend) && part.cells.size() == phases &&
          std::all_of(part.forms.begin(), part.forms.end(), is_grid) &&
          std::all_of(part.inputs.begin(), part.inputs.end(), [&](const PhaseInput& input) {
-           return is_grid(input.first) && (input.second.values.empty() || is_grid(input.second));
+           return is_grid(input.first) && (input.second.is_empty() || is_grid(input.second));
          });
 }
 
 }  // namespace
+
+PhasePart without_lean(PhasePart part) {
+  for (GridFunction& form : part.forms) {
+    form = without_lean(std::move(form));
+  }
+  for (PhaseInput& input : part.inputs) {
+    input.first = without_lean(std::move(input.first));
+    input.second = without_lean(std::move(input.second));
+  }
+  for (std::size_t i = 0; i < part.off.size(); ++i) {
+    for (std::size_t j = 0; j < part.off.size(); ++j) {
+      const double middle = 0.5 * part.matrix[0][i][j] + 0.5 * part.matrix[1][i][j];
+      part.matrix[0][i][j] = part.matrix[1][i][j] = middle;
+      part.off[i][j] =
+          up(std::max(std::abs(part.matrix_high[i][j] - middle), std::abs(part.matrix_low[i][j] - middle)));
+    }
+  }
+  return part;
+}
 
 TubePart place_of_part(std::size_t part, std::size_t parts, std::size_t phase, std::size_t phases) {
   const auto count = static_cast<double>(parts);
@@ -225,7 +276,7 @@ TubePart place_of_part(std::size_t part, std::size_t parts, std::size_t phase, s
 PhasePart phase_part(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
                      std::size_t part, std::size_t phases) {
   const TubePart whole = place_of_part(part, cell.parts, 0, phases);
-  PartCollection collection(structure, cell, whole.z);
+  PartCollection collection(structure, cell, whole);
   for (std::size_t g = 0; g < phases; ++g) {
     collection.add(run_over(structure, model, cell, place_of_part(part, cell.parts, g, phases)));
   }

@@ -1,6 +1,7 @@
 // A loop at the frequencies of a part of a cell, over all phases (docs/gain-proof.md, section 10).
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct PhaseCellValues {
 struct PhasePart {
   Ball lowest, highest;           ///< the frequencies, rad/sample, or more
   double half_width = 0.0;        ///< D of its cell
-  Table matrix;                   ///< near the matrix in the middle, row by row
+  std::array<Table, 2> matrix;    ///< near the matrix at the lowest and the highest frequency, row by row
+  Table off;                      ///< sup of how far the matrix is from the line between them
   Table matrix_low, matrix_high;  ///< enclose all matrices
   std::vector<GridFunction> forms;
   std::vector<PhaseInput> inputs;  ///< noise, the slew, then those of the structure
@@ -40,6 +42,10 @@ struct PhasePart {
 /// Part number `part` of a cell, with so many phases. Throws NotCovered where something is not certain.
 PhasePart phase_part(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
                      std::size_t part, std::size_t phases);
+
+/// The same with nothing that leans: forms, inputs and matrices are those in the middle of its frequencies,
+/// up to errors.
+PhasePart without_lean(PhasePart part);
 
 /// The part of z in [-1, 1] with this number, or a little more, over a cell of phases.
 TubePart place_of_part(std::size_t part, std::size_t parts, std::size_t phase, std::size_t phases);

@@ -132,7 +132,8 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
   const std::size_t fewest_parts =
       std::isfinite(best.missed) ? std::max<std::size_t>(best.gridding.parts / 2, 2) : 2;
   const std::size_t most_parts = (with_slew ? 128 : 64) / cells_.size();
-  constexpr double kFine = 0.06;  // of the gain is missed
+  // What may be missed of the gain: with a slew finer parts take minutes, because all look at each other.
+  const double fine = with_slew ? 0.1 : 0.06;
   constexpr double kBetter = 0.9;
   constexpr double kNear = 1.03;
   double last_gain = INFINITY;
@@ -149,7 +150,7 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
       best = {missed, gridding_};
       probe_ = std::make_shared<PhaseGains>(*std::move(gains));
     }
-    if (missed < kFine && last_gain < kNear * gain) {
+    if (missed < fine && last_gain < kNear * gain) {
       return true;
     }
     last_gain = gain;

@@ -38,7 +38,10 @@ struct Outcome {
 };
 
 double or_nothing(const model::ProvedSet& set, double bound) {
-  return set.is_proved() && names_lock(set) ? bound : CertifiedValues::kInfinite;
+  if (set.is_proved() && names_lock(set)) {
+    return bound;
+  }
+  return CertifiedValues::kInfinite;
 }
 
 CertifiedValues values_of(const ModelSets& sets, const ModelAssumptions& assume) {

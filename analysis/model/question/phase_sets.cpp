@@ -169,6 +169,12 @@ class PhaseSets {
     return true;
   }
 
+  /// With room for what a checker finds of how far the curve is from a steady state, too: that is rounding,
+  /// of which bounds may differ by half.
+  [[nodiscard]] double claimed(double bound) const {
+    return rigor::add_up(with_room(bound), std::max(0.0, still_->for_ever - still_->bias));
+  }
+
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance,
                                  const std::optional<PhaseErrors>& errors) const {
     ProvedSet set;
@@ -180,8 +186,8 @@ class PhaseSets {
     set.start_share = 0.5;
     set.tubes.is_complete = errors.has_value();
     if (errors) {
-      set.frequency_error = with_room(errors->for_ever);
-      set.settled_error = with_room(errors->long_run);
+      set.frequency_error = claimed(errors->for_ever);
+      set.settled_error = claimed(errors->long_run);
     } else {
       set.tubes.reasons.emplace_back("the bounds of the errors do not close: too much noise or slew");
     }
@@ -202,7 +208,7 @@ class PhaseSets {
     starts.ripple = rigor::add_up(width, 1e-13);
     if (reach_ > 0.0 && at_reach_) {
       starts.reach = kRoom * reach_;
-      starts.frequency_error = with_room(at_reach_->for_ever);
+      starts.frequency_error = claimed(at_reach_->for_ever);
     }
     proof.assumed = set_of(kAssumed, {question_->noise, question_->slew, {}}, assumed_);
     if (question_->assumes_start) {
@@ -210,9 +216,12 @@ class PhaseSets {
       if (from_starts_) {
         proof.errors = *from_starts_;
         proof.assumed.start_share = 1.0;
-        proof.assumed.frequency_error = with_room(from_starts_->for_ever);
-        proof.assumed.settled_error = with_room(from_starts_->long_run);
+        proof.assumed.frequency_error = claimed(from_starts_->for_ever);
+        proof.assumed.settled_error = claimed(from_starts_->long_run);
       }
+    }
+    for (double& error : proof.errors.from_block) {
+      error = claimed(error);
     }
     if (question_->largest_noise && noise_ > 0.0) {
       proof.noise = set_of(kLargestNoise, {kRoom * noise_, 0.0, {}}, at_noise_);
@@ -236,7 +245,7 @@ double samples_below(const PhaseProof& proof, const Interval& target) {
   const std::vector<double>& errors = proof.errors.from_block;
   const std::size_t length = proof.gridding.horizon / PhaseKernels::kBlocks;
   for (std::size_t block = 0; block < errors.size(); ++block) {
-    if (rigor::certainly_less(Interval(with_room(errors[block])), target)) {
+    if (rigor::certainly_less(Interval(errors[block]), target)) {
       return static_cast<double>(block * length);
     }
   }

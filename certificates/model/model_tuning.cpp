@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "analysis/rigor/decimal.hpp"
@@ -17,7 +18,6 @@
 #include "certificates/design/request_error.hpp"
 #include "certificates/model/model_limits.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/sets/frequency_units.hpp"
 #include "certificates/tuning/design_text.hpp"
 #include "certificates/tuning/design_values.hpp"
 #include "certificates/tuning/objective.hpp"
@@ -57,25 +57,6 @@ CertifiedValues values_of(const ModelSets& sets, const ModelAssumptions& assume)
   return found;
 }
 
-std::string shown(const CertifiedValues& values, Objective objective, const ModelAssumptions& assume) {
-  constexpr int kDigits = 3;
-  const double value = value_of(values, objective);
-  const FrequencyUnits units(assume.sample_rate);
-  if (!std::isfinite(value) || !(is_to_be_small(objective) || value > 0.0)) {
-    return "nothing certified";
-  }
-  switch (objective) {
-    case Objective::radius:
-      return units.at_least(value, kDigits);
-    case Objective::noise:
-      return rigor::to_decimal(value, kDigits, rigor::Direction::down) + " signal units";
-    case Objective::slew:
-      return units.slew(value, kDigits);
-    default:
-      return units.at_most(value, kDigits);
-  }
-}
-
 Objective objective_for(const std::string& name, const ModelAssumptions& assume) {
   if (assume.gaussian) {
     throw RequestError("veritrack tune: a model is tuned for noise with a bound only", "assume.noise");
@@ -99,7 +80,11 @@ class Search {
     const rigor::UpwardRounding upward;
     const ModelTables& tables = model_tables(design);
     const Model model = make_model(tables.model, tables.assume.signal);
+    std::set<std::string> names;
     for (const FreeParameter& free : request.over) {
+      if (!names.insert(free.name).second) {
+        throw RequestError(fmt::format("veritrack tune: {} is given twice", free.name), "model.parameters");
+      }
       given_.push_back(given_value(model, free));
     }
   }
@@ -280,14 +265,17 @@ class Search {
       }
     }
     const auto words = words_of(objective_).words;
-    const std::string after = shown(best_.second.values, objective_, assume);
+    const auto show_value = [&](const CertifiedValues& values) {
+      return shown(values, objective_, assume.sample_rate, "signal units");
+    };
+    const std::string after = show_value(best_.second.values);
     std::vector<std::string> notes;
     if (changes.empty()) {
       notes.push_back(fmt::format("Of {} designs none is better than the given one: {} is {}.",
                                   scores_.size(), words, after));
     } else {
       notes.push_back(fmt::format("{}: {} goes from {} to {}.", fmt::join(changes, ", "), words,
-                                  shown(before.values, objective_, assume), after));
+                                  show_value(before.values), after));
     }
     if (request_->deadline.has_struck()) {
       notes.push_back(

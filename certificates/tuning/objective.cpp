@@ -71,8 +71,13 @@ double merit_of(const CertifiedValues& values, Objective objective) {
 }
 
 std::string shown(const CertifiedValues& values, Objective objective, const Assumptions& assume) {
+  return shown(values, objective, assume.sample_rate, "of the amplitude");
+}
+
+std::string shown(const CertifiedValues& values, Objective objective,
+                  const std::optional<Number>& sample_rate, std::string_view noise_unit) {
   const double value = value_of(values, objective);
-  const FrequencyUnits units(assume.sample_rate);
+  const FrequencyUnits units(sample_rate);
   const bool is_known = std::isfinite(value) && (is_to_be_small(objective) || value > 0.0);
   if (!is_known) {
     return "nothing certified";
@@ -81,7 +86,7 @@ std::string shown(const CertifiedValues& values, Objective objective, const Assu
     case Objective::radius:
       return units.at_least(value, kDigits);
     case Objective::noise:
-      return rigor::to_decimal(value, kDigits, rigor::Direction::down) + " of the amplitude";
+      return fmt::format("{} {}", rigor::to_decimal(value, kDigits, rigor::Direction::down), noise_unit);
     case Objective::slew:
       return units.slew(value, kDigits);
     case Objective::lowest_snr:

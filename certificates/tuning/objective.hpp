@@ -77,6 +77,10 @@ inline constexpr std::array<ObjectiveWords, 8> kObjectiveWords{{
 /// "0.0021 rad/sample (3.4 Hz)", "16.3 dB": rounded to the side that makes it true.
 [[nodiscard]] std::string shown(const CertifiedValues& values, Objective objective,
                                 const Assumptions& assume);
+/// The same with the unit of noise; frequencies also in Hz where there is a rate (Hz), which must outlive the
+/// call.
+[[nodiscard]] std::string shown(const CertifiedValues& values, Objective objective,
+                                const std::optional<Number>& sample_rate, std::string_view noise_unit);
 
 /// Whether something has to be certified, or estimated, to judge values: simulations are compared as they are
 /// where nothing is required.

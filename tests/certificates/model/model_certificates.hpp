@@ -48,15 +48,16 @@ inline const certificates::Certificate& loop_certificate() {
   return certificate;
 }
 
-/// A loop of two channels, which is certified by gains. `gains`: "kp = 0.06, ki = 0.001" or others.
-inline certificates::Certificate two_channel_certificate(const std::string& gains = "kp = 0.06, ki = 0.001") {
-  const std::string text = R"(name = "a loop"
+/// A loop of two channels, which is certified by gains. `parameters`: kp and ki at least; `rest`: what else
+/// is assumed and required.
+inline std::string two_channel_text(const std::string& parameters, const std::string& rest) {
+  return R"(name = "a loop"
 tracker = "model"
 
 [model]
 samples = ['i', 'q']
-parameters = { )" + gains +
-                           R"( }
+parameters = { )" +
+         parameters + R"( }
 states = ['theta', 'w']
 angles = ['theta']
 step = '''
@@ -69,14 +70,19 @@ start = { theta = 'omega', w = 'omega' }
 
 [assume]
 amplitude = 1
-sample_rate = 1000
 frequency = [-0.5, 0.5]
+)" + rest;
+}
+
+/// Of that loop. `gains`: "kp = 0.06, ki = 0.001" or others.
+inline certificates::Certificate two_channel_certificate(const std::string& gains = "kp = 0.06, ki = 0.001") {
+  const std::string text = two_channel_text(gains, R"(sample_rate = 1000
 noise = 0.1
 slew = { hz_per_second = 0.1 }
 
 [require]
 frequency_error_below = 0.01
-)";
+)");
   return certificates::certify(loop_design(text), "loop.toml", text, {}, certificates::Extent::everything);
 }
 

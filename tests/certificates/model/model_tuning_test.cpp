@@ -13,28 +13,9 @@
 namespace veritrack::certificates {
 namespace {
 
-/// A tracker of the first order on the phase's steps: |error| = K |noise in the angle|, the less the smaller
-/// g is; and it stays within a factor.
 std::string loop_text(const std::string& assume, const std::string& require = "") {
-  return R"(name = "a loop"
-tracker = "model"
-[model]
-samples = ['i', 'q']
-parameters = { kp = 0.06, ki = 0.001, half = '1/2' }  # of the loop
-states = ['theta', 'w']
-angles = ['theta']
-step = '''
-e      = q*cos(theta) - i*sin(theta)
-theta' = theta + w + kp*e
-w'     = w + ki*e
-'''
-frequency = 'w'
-start = { theta = 'omega', w = 'omega' }
-[assume]
-amplitude = 1
-frequency = [-0.5, 0.5]
-)" + assume +
-         (require.empty() ? "" : "[require]\n" + require);
+  return test::two_channel_text("kp = 0.06, ki = 0.001, half = '1/2'",
+                                assume + (require.empty() ? "" : "[require]\n" + require));
 }
 
 TuningResult tuned(const std::string& text, const std::string& objective, std::vector<FreeParameter> over,
@@ -65,7 +46,7 @@ TEST_CASE("the bound in the long run is least with the least gain, and the words
   REQUIRE(result.design_text);
   CHECK(parameter_of(result, "ki") == doctest::Approx(1e-4));
   CHECK(parameter_of(result, "kp") == 0.06);
-  CHECK(result.design_text->find("half = '1/2' }  # of the loop") != std::string::npos);
+  CHECK(result.design_text->find("half = '1/2' }") != std::string::npos);
   REQUIRE(result.notes.size() == 1);
   CHECK(result.notes[0].starts_with(
       "ki = 0.001 -> 0.0001: the certified bound on the frequency error in the long run goes from "));
@@ -117,6 +98,8 @@ TEST_CASE("what cannot be asked is refused with the place in the file") {
   CHECK(key_of(loop_text("noise = 0.01\n"), {"kq", 1.0, 2.0}) == "model.parameters");
   CHECK(key_of(loop_text("noise = 0.01\n"), {"pi", 1.0, 4.0}) == "model.parameters");
   CHECK(key_of(loop_text("noise = 0.01\n"), {"kp", 1.0, 2.0}) == "model.parameters");
+  CHECK_THROWS_AS((void)tuned(loop_text("noise = 0.01\n"), "", {{"kp", 0.01, 0.1}, {"kp", 0.02, 0.2}}, 1),
+                  RequestError);
   CHECK(key_of(loop_text("noise = { snr_db = 20 }\nsamples = 100\n"), {"kp", 0.01, 2.0}) == "assume.noise");
 }
 

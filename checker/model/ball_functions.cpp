@@ -56,22 +56,16 @@ BallPolynomial value_of_taylor(const std::array<Ball, kTerms + 1>& f, const Ball
   return value.widen(error);
 }
 
-BallPolynomial function_of(ArbSeries series, const BallPolynomial& x) {
-  if (!x.known()) {
-    return BallPolynomial::everything();
-  }
+/// A function that is smooth over the range of x, and whose fifth derivative is largest at `steepest` there.
+BallPolynomial function_of(ArbSeries series, const BallPolynomial& x, const Ball& steepest) {
   const Ball middle(x.constant());
   const BallPolynomial deviation = x - BallPolynomial(x.constant());
-  const Ball all = x.range();
-  const std::array<Ball, kTerms + 1> over_range = expansion(series, all);
-  // Defined, with its derivatives, for all arguments.
-  for (const Ball& coefficient : over_range) {
-    if (!coefficient.finite()) {
-      return BallPolynomial::everything();
-    }
+  const Ball last = abs(expansion(series, steepest)[kTerms]);
+  if (!x.known() || !last.finite()) {
+    return BallPolynomial::everything();
   }
-  const double size = abs(all - middle).upper_double();
-  return value_of_taylor(expansion(series, middle), deviation, size, abs(over_range[kTerms]));
+  const double size = abs(x.range() - middle).upper_double();
+  return value_of_taylor(expansion(series, middle), deviation, size, last);
 }
 
 /// The cosine or the sine, whose fifth derivatives are at most 1.
@@ -115,14 +109,19 @@ BallPolynomial reciprocal(const BallPolynomial& x) {
   const BallPolynomial deviation = x - BallPolynomial(x.constant());
   return value_of_taylor(coefficients, deviation, size.upper_double(), abs(coefficients[kTerms - 1]) / least);
 }
+// The fifth derivatives of root and logarithm fall, that of the exponential rises.
 BallPolynomial sqrt(const BallPolynomial& x) {
-  return certainly_positive(x.range()) ? function_of(arb_poly_sqrt_series, x) : BallPolynomial::everything();
+  const Ball all = x.range();
+  return certainly_positive(all) ? function_of(arb_poly_sqrt_series, x, all.lower())
+                                 : BallPolynomial::everything();
 }
 BallPolynomial exp(const BallPolynomial& x) {
-  return function_of(arb_poly_exp_series, x);
+  return function_of(arb_poly_exp_series, x, x.range().upper());
 }
 BallPolynomial log(const BallPolynomial& x) {
-  return certainly_positive(x.range()) ? function_of(arb_poly_log_series, x) : BallPolynomial::everything();
+  const Ball all = x.range();
+  return certainly_positive(all) ? function_of(arb_poly_log_series, x, all.lower())
+                                 : BallPolynomial::everything();
 }
 BallPolynomial sin(const BallPolynomial& x) {
   return wave(x, false);
@@ -132,16 +131,21 @@ BallPolynomial cos(const BallPolynomial& x) {
 }
 BallPolynomial tangent(const BallPolynomial& x) {
   // No pole lies between two where the cosine vanishes.
-  return certainly_positive(abs(cos(x.range()))) ? function_of(arb_poly_tan_series, x)
-                                                 : BallPolynomial::everything();
+  const Ball all = x.range();
+  return certainly_positive(abs(cos(all))) ? function_of(arb_poly_tan_series, x, all)
+                                           : BallPolynomial::everything();
 }
+// The coefficients of the series of the arc sine at 0 are not negative: its odd derivatives are even, and
+// rise with |x|.
 BallPolynomial arcsine(const BallPolynomial& x) {
-  return certainly_less(abs(x.range()), one) ? function_of(arb_poly_asin_series, x)
-                                             : BallPolynomial::everything();
+  const Ball largest = abs(x.range()).upper();
+  return certainly_less(largest, one) ? function_of(arb_poly_asin_series, x, largest)
+                                      : BallPolynomial::everything();
 }
 BallPolynomial arccosine(const BallPolynomial& x) {
-  return certainly_less(abs(x.range()), one) ? function_of(arb_poly_acos_series, x)
-                                             : BallPolynomial::everything();
+  const Ball largest = abs(x.range()).upper();
+  return certainly_less(largest, one) ? function_of(arb_poly_acos_series, x, largest)
+                                      : BallPolynomial::everything();
 }
 // The fifth derivative of the arc tangent is 4! cos(a)^5 sin(5 (a + pi/2)) at tan(a): at most 4! everywhere,
 // where bounds of the series over a wide range are far larger, or infinite.
@@ -166,7 +170,8 @@ BallPolynomial arctangent(const BallPolynomial& x) {
 // times the integral of (1 - t)^4/(1 + t w)^5 over t in [0, 1]. Where a >= -c > -1, |1 + t w| >= 1 - t c, and
 // with u = (1 - t)/(1 - t c) the integral is at most that of u^4/(1 - c) over u in [0, 1]. So the truncated
 // part is the same in all directions and depends on the size of w alone, whereas a quotient and its arc
-// tangent are far wider.
+// tangent are far wider. The rest is real where b = 0, and its derivative is w^4/(1 + w), where |1 + w| >=
+// 1 - c: it is at most |b| |w|^4/(1 - c), too, which is less where the length changes more than the angle.
 BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x) {
   const Ball of_x = x.range();
   const Ball of_y = y.range();
@@ -187,7 +192,8 @@ BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x) {
     return BallPolynomial::everything();
   }
   const Ball size = sqrt(square(abs(a.range()).upper()) + square(abs(b.range()).upper()));
-  const Ball remainder = whole_power(size, 5) / (Ball(5.0) * (one - backward));
+  static const Ball fifth = one / Ball(5.0);
+  const Ball remainder = whole_power(size, 4) * min(fifth * size, abs(b.range()).upper()) / (one - backward);
   static const Ball third = one / Ball(3.0);
   BallPolynomial real = BallPolynomial(third) - 0.25 * a;
   BallPolynomial imaginary = -0.25 * b;

@@ -258,6 +258,28 @@ TEST_CASE("the angle of a point that turns is about as exact in every direction"
   }
 }
 
+TEST_CASE("the angle of a point whose length changes, and hardly its direction") {
+  const BallPolynomial angle =
+      arctangent2(1e-6 * BallPolynomial::phase(), BallPolynomial(1.0) + 0.4 * BallPolynomial::frequency());
+  // 1e-6 s (1 - 0.4 z + ...), the rest of the geometric series: 1e-6 0.4^4/(1 - 0.4).
+  CHECK(angle.error() < 1e-6 * (2.0 * std::pow(0.4, 4.0) / 0.6));
+}
+
+TEST_CASE("remainders over wide ranges are those of the fifth derivative where it is largest") {
+  const BallPolynomial s = BallPolynomial::phase();
+  const auto remainder = [](const BallPolynomial& value) { return value.error() * (1.0 - 1e-7); };
+  const double x = 0.6;
+  const double square = x * x;
+  CHECK(remainder(arccosine(x * s)) <= (9.0 + 72.0 * square + 24.0 * square * square) /
+                                           std::pow(1.0 - square, 4.5) / 120.0 * std::pow(x, 5.0));
+  CHECK(remainder(arcsine(x * s)) <= (9.0 + 72.0 * square + 24.0 * square * square) /
+                                         std::pow(1.0 - square, 4.5) / 120.0 * std::pow(x, 5.0));
+  CHECK(remainder(exp(x * s)) <= std::exp(x) / 120.0 * std::pow(x, 5.0));
+  CHECK(remainder(log(BallPolynomial(1.0) + x * s)) <= std::pow(1.0 - x, -5.0) / 5.0 * std::pow(x, 5.0));
+  CHECK(remainder(sqrt(BallPolynomial(1.0) + x * s)) <=
+        7.0 / 256.0 * std::pow(1.0 - x, -4.5) * std::pow(x, 5.0));
+}
+
 TEST_CASE("random expressions") {
   test::Random random(84);
   for (std::int64_t trial = 0; trial < test::effort(300); ++trial) {

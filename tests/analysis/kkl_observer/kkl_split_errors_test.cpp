@@ -91,8 +91,10 @@ void check_equation(test::Random& random) {
   const auto estimate = trackers::in_engineering_units(x);
   const double found = map.squared_frequency_error(at, u, map.perturbed(at, u));
   CHECK(found == doctest::Approx(e).epsilon(1e-6).scale(1e-2));
-  CHECK(map.amplitude_error(at, u, found) ==
-        doctest::Approx(estimate.amplitude - 1.0).epsilon(1e-5).scale(1e-2));
+  if (x(2) > 0.0) {  // else the filters are those of no oscillation
+    CHECK(map.amplitude_error(at, u, found) ==
+          doctest::Approx(estimate.amplitude - 1.0).epsilon(1e-5).scale(1e-2));
+  }
   CHECK(map.excitation_ratio(at, u, map.perturbed(at, u)) ==
         doctest::Approx(trackers::kkl_excitation<double, M>(xi, lambda) / xi.squaredNorm()).epsilon(1e-6));
   // e |y0|^2 (1 + a) = -(1 + a) y0'v - (Pz)'Pv with v = N'(F^2 + s + e) u.

@@ -139,18 +139,26 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
 }  // namespace
 
 std::string headline(const Certificate& certificate, const Verification& verification) {
-  const std::string refused = verification.outcome == Verification::Outcome::refused ? "NOT VERIFIED. " : "";
-  if (!certificate.verdict) {
-    return refused + "Nothing is required of this design";
+  std::vector<std::string> sentences;
+  if (verification.outcome == Verification::Outcome::refused) {
+    sentences.emplace_back("NOT VERIFIED");
   }
-  std::string text;
+  if (certificate.verdict != Verdict::proved) {
+    sentences.emplace_back(certificate.verdict ? "NOT PROVED" : "Nothing is required of this design");
+  }
+  std::vector<std::string> verdicts;
   for (const Claim& claim : certificate.claims) {
+    if (!claim.finding.empty() && claim.verdict == Verdict::refuted) {
+      verdicts.insert(verdicts.begin(), "REFUTED: " + claim.finding);
+    }
     if (claim.required) {
-      text += text.empty() ? "" : "; ";
-      text += upper_case(rigor::to_string(claim.verdict)) + ": " + claim.requirement;
+      verdicts.push_back(upper_case(rigor::to_string(claim.verdict)) + ": " + claim.requirement);
     }
   }
-  return refused + (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
+  if (!verdicts.empty()) {
+    sentences.push_back(fmt::format("{}", fmt::join(verdicts, "; ")));
+  }
+  return fmt::format("{}", fmt::join(sentences, ". "));
 }
 
 namespace {

@@ -37,13 +37,17 @@ std::optional<double> radius_with(ModelTables tables, std::size_t parameter, dou
   return rigor::spectral_radius(slope);
 }
 
+bool is_stable(const ModelTables& tables, std::size_t parameter, double value) {
+  const auto radius = radius_with(tables, parameter, value);
+  return radius && *radius < 1.0;
+}
+
 /// Between a stable and an unstable value.
 double crossing(const ModelTables& tables, std::size_t parameter, double stable, double unstable) {
   constexpr int kSteps = 30;
   for (int i = 0; i < kSteps; ++i) {
-    const double middle = std::sqrt(stable * unstable);
-    const auto radius = radius_with(tables, parameter, middle);
-    (radius && *radius < 1.0 ? stable : unstable) = middle;
+    const double middle = std::copysign(std::sqrt(stable * unstable), stable);
+    (is_stable(tables, parameter, middle) ? stable : unstable) = middle;
   }
   return stable;
 }
@@ -57,21 +61,27 @@ std::vector<StabilityLimit> stability_limits(const ModelTables& tables) {
   const Model model = make_model(tables.model, tables.assume.signal);
   for (std::size_t i = 0; i < tables.model.parameters.size(); ++i) {
     const double value = model.constants[i].nearest;
-    if (!(value > 0.0)) {
+    const std::string& name = tables.model.parameters[i].name.text;
+    if (value == 0.0) {
       continue;
     }
+    if (is_stable(tables, i, -value)) {
+      limits.push_back({name, value, -value, StabilityLimit::Stable::at});
+      continue;
+    }
+    using enum StabilityLimit::Stable;
+    const bool is_negative = value < 0.0;
     double last_down = value;
     double last_up = value;
     for (int step = 0; step < kSteps; ++step) {
       const double down = last_down / kFactor;
       const double up = last_up * kFactor;
-      const auto below = radius_with(tables, i, down);
-      const auto above = radius_with(tables, i, up);
-      const bool is_below = below && *below < 1.0;
-      if (is_below || (above && *above < 1.0)) {
-        limits.push_back({tables.model.parameters[i].name.text, value,
-                          is_below ? crossing(tables, i, down, last_down) : crossing(tables, i, up, last_up),
-                          is_below});
+      if (is_stable(tables, i, down)) {
+        limits.push_back({name, value, crossing(tables, i, down, last_down), is_negative ? above : below});
+        break;
+      }
+      if (is_stable(tables, i, up)) {
+        limits.push_back({name, value, crossing(tables, i, up, last_up), is_negative ? below : above});
         break;
       }
       last_down = down;

@@ -8,16 +8,18 @@
 
 namespace veritrack::certificates {
 
-/// A parameter alone, the others as they are: the loop is stable on one side of this value.
+/// A parameter alone, the others as they are: the loop is stable on one side of a value, or at it.
 struct StabilityLimit {
+  enum class Stable { below, above, at };
+
   std::string parameter;
   double value = 0.0;  ///< of the design
   double limit = 0.0;  ///< nearest to it
-  bool is_stable_below = false;
+  Stable stable = Stable::below;
 };
 
-/// For each parameter that is a number or a formula of its own: within a factor of 1000. Parameters without a
-/// limit are left out. Needs the upward rounding mode.
+/// For each parameter that is a number or a formula of its own: with the other sign, or within a factor of
+/// 1000. Parameters without a limit are left out. Needs the upward rounding mode.
 [[nodiscard]] std::vector<StabilityLimit> stability_limits(const ModelTables& tables);
 
 }  // namespace veritrack::certificates

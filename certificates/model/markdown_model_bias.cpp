@@ -55,8 +55,12 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
   const bool settles = std::all_of(tubes.begin(), tubes.end(),
                                    [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   if (sets.slices.empty() || !settles) {
-    return "## Bias and ripple\n\nNothing is known of them: they need a set without noise in which errors "
-           "shrink.\n\n";
+    const bool is_by_gains = sets.phases.has_value();
+    return std::string("## Bias and ripple\n\n") +
+           (is_by_gains
+                ? "What is proved of them for the whole band stands at the top. Single cells need a "
+                  "tube without noise in which errors shrink.\n\n"
+                : "Nothing is known of them: they need a set without noise in which errors shrink.\n\n");
   }
   const ModelAssumptions& assume = model_tables(certificate.design).assume;
   const FrequencyUnits units(assume.sample_rate);

@@ -145,7 +145,11 @@ std::string stability_text(const Certificate& certificate) {
   std::vector<std::vector<std::string>> rows;
   for (const StabilityLimit& limit : stability_limits(model_tables(certificate.design))) {
     rows.push_back({"`" + limit.parameter + "`", fmt::format("{:.6g}", limit.value),
-                    fmt::format("{} {:.4g}", limit.is_stable_below ? "below" : "above", limit.limit)});
+                    fmt::format("{} {:.4g}",
+                                limit.stable == StabilityLimit::Stable::below   ? "below"
+                                : limit.stable == StabilityLimit::Stable::above ? "above"
+                                                                                : "with the other sign, at",
+                                limit.limit)});
   }
   if (!rows.empty()) {
     text += "*Computed, not proved:* one parameter alone would make it stable, the others as they are:\n\n" +

@@ -51,7 +51,10 @@ std::vector<NamedSet> named_sets(const ModelSets& sets, const ModelAssumptions& 
                      {},
                      sets.long_run ? &*sets.long_run : nullptr});
   }
-  if (sets.noise) {
+  const bool is_more_assumed = sets.noise && sets.assumed && sets.assumed->is_proved() &&
+                               !(sets.assumed->tubes.slew > 0.0) &&
+                               sets.noise->tubes.noise < sets.assumed->tubes.noise;
+  if (sets.noise && !is_more_assumed) {
     named.push_back({&*sets.noise, "the largest noise", false});
   }
   if (sets.slew) {
@@ -162,7 +165,7 @@ std::string objections(const NamedSet& named) {
   const model::TubeSet& set = named.set->tubes;
   const std::string part = proved_part(set);
   std::string text =
-      fmt::format("The set for {} was not proved for the whole band. {}\n\n", named.purpose,
+      fmt::format("The set for {} was not proved by tubes for the whole band. {}\n\n", named.purpose,
                   part.empty() ? std::string("No part of it was proved.")
                                : fmt::format("Frequencies with a proved tube: {} rad/sample.", part));
   constexpr std::size_t kMostReasons = 8;

@@ -215,12 +215,23 @@ void check_top(const Lines& lines, Objections& objections) {
 }  // namespace
 
 std::string headline(const Verification& verified) {
-  std::string text;
-  for (const Requirement& requirement : verified.requirements) {
-    text += (text.empty() ? "" : "; ") + word_of(requirement.verdict) + ": " + requirement.text;
+  const bool is_asked = !verified.requirements.empty();
+  const std::string text = is_asked && verified.requirements_proved ? "# "
+                           : is_asked                               ? "# NOT PROVED"
+                                                                    : "# Nothing is required of this design";
+  std::string verdicts;
+  const auto say = [&](Verdict verdict, const std::string& what) {
+    verdicts += (verdicts.empty() ? "" : "; ") + word_of(verdict) + ": " + what;
+  };
+  for (const Sentence& sentence : verified.sentences) {
+    if (!sentence.finding.empty() && sentence.verdict == Verdict::refuted) {
+      say(sentence.verdict, sentence.finding);
+    }
   }
-  return verified.requirements.empty() ? "# Nothing is required of this design"
-                                       : (verified.requirements_proved ? "# " : "# NOT PROVED. ") + text;
+  for (const Requirement& requirement : verified.requirements) {
+    say(requirement.verdict, requirement.text);
+  }
+  return text + (text == "# " || verdicts.empty() ? "" : ". ") + verdicts;
 }
 
 void compare_with_markdown(const Verification& verified, const std::string& certificate_sha256,

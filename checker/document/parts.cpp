@@ -47,7 +47,8 @@ void check_claims(const Tree& certificate, std::vector<Requirement> asked,
       objections.emplace_back("whether it is required is not as the design's [require] says");
     }
     if (objections.empty()) {
-      result.sentences.push_back({id, found.verdict, found.statement, found.is_summary, found.hypotheses});
+      result.sentences.push_back(
+          {id, found.verdict, found.statement, found.is_summary, found.hypotheses, found.finding});
       if (requirement != asked.end()) {
         requirement->verdict = found.verdict;
       }

@@ -26,6 +26,7 @@ struct Sentence {
   std::string text;                      ///< with all hypotheses
   bool is_summary = false;               ///< belongs to the block at the top of the document
   std::string hypotheses = {};           ///< the beginning of the text, where it is known
+  std::string finding = {};              ///< in short, where the headline names it once it is refuted
 };
 
 /// The requirement of a key of [require].

@@ -59,6 +59,7 @@ struct Claim {
   std::vector<Quantity> evidence;
   bool is_summary = false;      ///< belongs to the block at the top of the document
   std::string hypotheses = {};  ///< its beginning, if it belongs to the block at the top
+  std::string finding = {};     ///< in short, where the headline names it once it is refuted
 };
 
 /// [lo, hi] as a ball.

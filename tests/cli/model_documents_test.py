@@ -101,7 +101,7 @@ class ModelDocuments(CliTestCase):
         result, document = self.certify(self.text.replace("noise = 0.01", "noise = 3") +
                                         "\n[require]\nfrequency_error_below = 0.05\n")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("The set for the assumed noise was not proved for the whole band.", document)
+        self.assertIn("The set for the assumed noise was not proved by tubes for the whole band.", document)
         self.assertIn("| the assumed noise | 3 | none | not proved |", document)
 
 

@@ -169,11 +169,10 @@ class PhaseSets {
     return true;
   }
 
-  /// With room for what a checker finds of how far the curve is from a steady state, too: that is rounding,
-  /// of which bounds may differ by half.
-  [[nodiscard]] double claimed(double bound) const {
-    return rigor::add_up(with_room(bound), std::max(0.0, still_->for_ever - still_->bias));
-  }
+  /// What comes of how far the curve is from a steady state: that is rounding, of which the bounds of two
+  /// programs may differ by as much.
+  [[nodiscard]] double of_rounding() const { return std::max(0.0, still_->for_ever - still_->bias); }
+  [[nodiscard]] double claimed(double bound) const { return rigor::add_up(with_room(bound), of_rounding()); }
 
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance,
                                  const std::optional<PhaseErrors>& errors) const {
@@ -204,8 +203,9 @@ class PhaseSets {
                      {}};
     ProvedSet& starts = proof.starts;
     const double width = with_room(still_->ripple);
-    starts.bias = still_->mean + Interval::from_bounds(-0.03 * width - 1e-13, 0.03 * width + 1e-13);
-    starts.ripple = rigor::add_up(width, 1e-13);
+    const double room = 0.03 * width + of_rounding() + 1e-13;
+    starts.bias = still_->mean + Interval::from_bounds(-room, room);
+    starts.ripple = rigor::add_up(width, 2.0 * of_rounding() + 1e-13);
     if (reach_ > 0.0 && at_reach_) {
       starts.reach = kRoom * reach_;
       starts.frequency_error = claimed(at_reach_->for_ever);

@@ -137,6 +137,10 @@ std::string reason_of(const TubeProposal& proposal) {
     case TubeOutcome::time_limit:
       return kTimeLimit;
     case TubeOutcome::cell_too_wide:
+      if (proposal.loss < 0.01 * proposal.variation) {
+        return "the size of the tube changes too much over the cell: by " +
+               digits(100.0 * proposal.variation, 2) + " %";
+      }
       return "the steady state changes too much over the cell: a polynomial in the frequency is off by " +
              digits(proposal.curve_error, 2) + " rad/sample and costs " + digits(100.0 * proposal.loss, 2) +
              " % of the tube, whose size varies by " + digits(100.0 * proposal.variation, 2) + " %";

@@ -14,11 +14,21 @@ TEST_CASE("each parameter alone: where the loop z^2 - (2 - kp) z + 1 - kp + ki b
   const auto limits = stability_limits(model_tables(certificate.design));
   REQUIRE(limits.size() == 2);
   CHECK(limits[0].parameter == "kp");
-  CHECK(limits[0].is_stable_below);
+  CHECK(limits[0].stable == StabilityLimit::Stable::below);
   CHECK(limits[0].limit == doctest::Approx(2.015).epsilon(1e-6));
   CHECK(limits[1].parameter == "ki");
-  CHECK_FALSE(limits[1].is_stable_below);
+  CHECK(limits[1].stable == StabilityLimit::Stable::above);
   CHECK(limits[1].limit == doctest::Approx(0.2).epsilon(1e-6));
+}
+
+TEST_CASE("a wrong sign") {
+  const Certificate certificate = test::two_channel_certificate("kp = -0.25, ki = 0.03");
+  const rigor::UpwardRounding upward;
+  const auto limits = stability_limits(model_tables(certificate.design));
+  REQUIRE(limits.size() == 1);  // no ki helps
+  CHECK(limits[0].parameter == "kp");
+  CHECK(limits[0].stable == StabilityLimit::Stable::at);
+  CHECK(limits[0].limit == 0.25);
 }
 
 }  // namespace

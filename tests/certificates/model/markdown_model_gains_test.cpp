@@ -5,6 +5,7 @@
 #include <regex>
 #include <string>
 
+#include "certificates/document/markdown.hpp"
 #include "certificates/model/markdown_model.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "tests/certificates/model/model_certificates.hpp"
@@ -42,6 +43,7 @@ TEST_CASE("an unstable loop is refuted, with what would make it stable") {
   CHECK(text.find("The steady state below is unstable") != std::string::npos);
   // 2 kp - ki < 4
   CHECK(text.find("| `kp` | 2.1 | below 2.015 |") != std::string::npos);
+  CHECK(headline(certificate).starts_with("NOT PROVED. REFUTED: the steady state is stable; UNDECIDED: "));
   const auto answers = model_answers(certificate);
   REQUIRE(answers.size() == 1);
   CHECK(answers.front()->id == "model/stability");

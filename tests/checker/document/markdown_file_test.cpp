@@ -204,3 +204,14 @@ TEST_CASE("where nothing is required the headline says so") {
   found.requirements.clear();
   CHECK(headline(found) == "# Nothing is required of this design");
 }
+
+TEST_CASE("what is refuted though nobody asked is in the headline, once it is refuted") {
+  Verification found = verified_document();
+  const std::string before = headline(found);
+  found.sentences.push_back({"a/finding", Verdict::undecided, "It is stable.", true, "", "it is stable"});
+  CHECK(headline(found) == before);
+  found.sentences.back().verdict = Verdict::refuted;
+  CHECK(headline(found).find("REFUTED: it is stable; ") != std::string::npos);
+  found.requirements.clear();
+  CHECK(headline(found) == "# Nothing is required of this design. REFUTED: it is stable");
+}

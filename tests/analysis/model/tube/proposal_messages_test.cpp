@@ -102,6 +102,8 @@ TEST_CASE("a proposal that failed says at which step, with its numbers") {
   proposal.variation = 0.5;
   CHECK(has(reason_of(proposal),
             "off by 2e-06 rad/sample and costs 25 % of the tube, whose size varies by 50 %"));
+  proposal.loss = 1e-13;
+  CHECK(reason_of(proposal) == "the size of the tube changes too much over the cell: by 50 %");
   proposal.outcome = TubeOutcome::no_steady_state;
   proposal.steady_state.outcome = SteadyStateOutcome::diverges;
   CHECK(reason_of(proposal) == reason_of(proposal.steady_state));

@@ -97,6 +97,7 @@ Verdict is_damped(const Disc& disc, const Interval& least) {
     return Verdict::proved;
   }
   const Interval inner = size - Interval(disc.radius);
+  // cannot bind (inner): the square of a logarithm of what may be 0 has no upper bound.
   const bool is_less =
       rigor::certainly_less_equal(Interval(1.0), inner) ||
       (rigor::certainly_positive(inner) &&

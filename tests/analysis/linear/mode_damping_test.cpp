@@ -45,6 +45,11 @@ TEST_CASE("the damping of a pair is that of the textbook") {
 TEST_CASE("what is unstable, unknown or wide is not damped") {
   const rigor::UpwardRounding upward;
   CHECK(has_damping(pair_of(1.01, 0.2), Interval(0.1)) != Verdict::proved);
+  CHECK(has_damping(pair_of(1.5, 0.2), Interval(0.1)) != Verdict::proved);
+  // About the required damping, on either side.
+  std::vector<Row> wide = pair_of(0.6, 0.5);
+  wide[0][0] += Interval::from_bounds(-0.02, 0.02);
+  CHECK(has_damping(wide, Interval(damping_of(0.6, 0.5))) == Verdict::undecided);
   CHECK(has_damping({{Interval::from_bounds(-1.5, 1.5)}}, Interval(0.1)) == Verdict::undecided);
   CHECK(has_damping({{Interval(NAN)}}, Interval(0.1)) == Verdict::undecided);
   // -0.5: ln z = -0.69 + pi i.

@@ -143,6 +143,8 @@ TEST_CASE("functions with kinks stay within their remainders, idle or not") {
     check([](const auto& v) { return absolute(v.w) + absolute(v.k - v.w) * v.l; }, size, 0.0);
     check([](const auto& v) { return absolute(quadrature(v)); }, 0.5 * size, 0.5 * size);
     check([](const auto& v) { return absolute(in_phase(v)); }, 0.5 * size, 0.3 * size);
+    check([](const auto& v) { return v.w + clamped(v.k + v.l, v.k, v.l) + clamped(v.k - v.l, v.k, v.l); },
+          size, 0.0);
   }
   // Signs and conditions: as long as their limits are kept.
   check([](const auto& v) { return sign_of(in_phase(v)) * quadrature(v); }, 0.3, 0.3);
@@ -168,6 +170,36 @@ TEST_CASE("a sign or a condition is a limit, and none at its jump or of what tur
   CHECK_FALSE(setting.frame.may_rest_at_kink());
   (void)absolute(quadrature(v));
   CHECK(setting.frame.may_rest_at_kink());
+}
+
+TEST_CASE("at a kink within a wide band the remainder is as large as the steady state is away from it") {
+  const rigor::UpwardRounding upward;
+  Frame frame(Interval(1.0), Interval::from_bounds(0.1, 0.3), 1);
+  const FrameValue w = frame.state(0, false, 0, 0.0, 2.0);
+  const FrameLine line = frame.line_of(maximum(w, frame.constant(0, Interval(0.4))));
+  CHECK(frame.may_rest_at_kink());
+  REQUIRE(line.inputs.size() == 1);
+  REQUIRE(frame.inputs().size() == 1);
+  // 0.4 + (w - 0.4)/2 and at most |w - 0.4|/2
+  CHECK(line.states[0] == Interval(0.5));
+  CHECK(frame.inputs()[0].at_bounds(std::vector<double>(frame.forms().size(), 0.0)) >= 0.1);
+}
+
+TEST_CASE("an angle times a factor whose sign is not known is not an angle") {
+  const rigor::UpwardRounding upward;
+  for (const bool is_known : {true, false}) {
+    Setting setting;
+    const FrameValue factor = setting.frame.constant(
+        2, is_known ? Interval::from_bounds(-0.2, -0.1) : Interval::from_bounds(-0.1, 0.1));
+    // A quarter of a turn from the steady state.
+    const FrameValue y = factor * in_phase(setting.values);
+    const FrameValue x = factor * -quadrature(setting.values);
+    if (is_known) {
+      CHECK_NOTHROW((void)atan2(y, x));
+    } else {
+      CHECK_THROWS_AS((void)atan2(y, x), NoFrame);
+    }
+  }
 }
 
 TEST_CASE("an arc tangent of both parts has no remainder, and a limit of half a turn") {

@@ -1,6 +1,7 @@
 #include "certificates/model/markdown_model_sets.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -242,6 +243,22 @@ std::string parts_sentence(const ModelSets& sets) {
       parts > 0 ? fmt::format("{} part{}", parts, parts == 1 ? "" : "s") : std::string("parts"));
 }
 
+/// Bounds by gains are mostly better: why there are none.
+std::string without_gains(const ModelSets& sets) {
+  std::vector<std::string> reasons;
+  if (!sets.no_gains.empty()) {
+    reasons.push_back("with one linear recursion for all phases: " + sets.no_gains);
+  }
+  if (!sets.no_phase_gains.empty()) {
+    reasons.push_back("phase by phase: " + sets.no_phase_gains);
+  }
+  return reasons.empty() ? std::string()
+                         : fmt::format(
+                               "Gains, which mostly prove more than tubes, were tried and do not cover "
+                               "this loop ({}).\n\n",
+                               markdown::escaped(fmt::format("{}", fmt::join(reasons, "; "))));
+}
+
 }  // namespace
 
 std::string model_picture(const MarkdownOptions& options, std::string_view file) {
@@ -327,7 +344,7 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
   if (attacked != nullptr) {
     text += attack_on(*attacked, proved_model(model, assume), units);
   }
-  text += linear_comparison(sets, units);
+  text += linear_comparison(sets, units) + without_gains(sets);
   return text + model_picture(options, "reach.svg") + model_picture(options, "tolerance.svg") +
          model_picture(options, "tube.svg");
 }

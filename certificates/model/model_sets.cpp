@@ -222,7 +222,8 @@ void add_phases(const model::SetQuestion& question, ModelSets& sets) {
     known = {std::max(known.noise, tolerated_noise(sets.averages->noise)),
              std::max(known.reach, proved_reach(sets.averages->starts))};
   }
-  sets.phases = model::prove_by_phase_gains(question, known);
+  sets.phases = model::prove_by_phase_gains(question, known,
+                                            question.allows_phase_gains ? &sets.no_phase_gains : nullptr);
   if (sets.phases && !sets.best().is_without_tubes() &&
       !(tolerated_noise(sets.phases->noise) > known.noise)) {
     sets.phases.reset();
@@ -264,6 +265,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   }
   if (!sets.objection.empty()) {
     return sets;
+  }
+  if (question.allows_gains && !by_gains && model.samples.size() > 1) {
+    sets.no_gains = no_gains;
   }
   const bool follows_start =
       !assume.start_exactly.empty() && (is_everything || tables.require.captured_within);

@@ -20,6 +20,9 @@ struct ModelSets : model::ProvedSets {
   std::optional<ModelLock> lowest_snr;  ///< for the most Gaussian noise that can be proved
   bool bounds_covariance = false;       ///< the tubes bound a filter's covariance
   std::string objection;                ///< why nothing is certified for the assumptions; or empty
+  /// Why gains do not cover the loop, by constant coefficients and over the phase; empty where they do or
+  /// cannot be asked.
+  std::string no_gains, no_phase_gains;
 
   /// Of a statement by this set.
   [[nodiscard]] StartsIn starts_in(const model::ProvedSet& set) const {

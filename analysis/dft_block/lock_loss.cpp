@@ -43,6 +43,8 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
   const rigor::IntervalMatrix<3> floor = rigor::to_interval(drift.floor);
   const Interval determinant = determinant_of(floor);
   const auto inverse = rigor::inverse(floor);
+  // cannot bind (determinant, question.deviation): below 0 its logarithm is empty, and of the deviation only
+  // the square is used, whose reciprocal at 0 is not finite.
   if (!inverse || !rigor::certainly_positive(determinant) || !rigor::certainly_positive(question.deviation)) {
     return std::nullopt;
   }
@@ -58,12 +60,14 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
     log_factor += half * theta * (Interval(1.0) + Interval(1.0) / Interval(slew_share)) *
                   square(question.problem.slew) * length;
   }
+  // cannot bind (power): elsewhere the logarithm of it or of 1/power - 1 is empty or has no end.
   if (!rigor::certainly_less(power, Interval(1.0)) || !rigor::certainly_positive(power)) {
     return std::nullopt;
   }
   rigor::IntervalVector<3> bounds;
   bounds << question.amplitude_error, question.phase_error, question.offset_error;
   const Interval start = frame.length_of(bounds);
+  // cannot bind (start): the probability would come out above 1.
   if (!rigor::certainly_less_equal(start, Interval(drift.radius))) {
     return std::nullopt;
   }

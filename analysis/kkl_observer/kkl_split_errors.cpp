@@ -209,6 +209,7 @@ typename SplitErrors<M>::State SplitErrors<M>::state(const Box& box) const {
     const Interval shift = upper_end(at.error.sum());
     const Reach better =
         larger_of(driven(at.direction, at, -shift), driven(at.direction, at, shift)) + second();
+    // cannot bind (better.sum()): both are bounds.
     if (rigor::certainly_less(better.sum(), at.error.sum())) {
       at.error = better;
     }

@@ -71,6 +71,7 @@ class SetsProof {
   [[nodiscard]] bool meets(const ProvedSet& set) const {
     const Interval& required = *question_->required_error;
     const auto lowered = [&] { return lowered_to(question_->tracker, set, question_->deviations, required); };
+    // cannot bind (required): this only chooses among proved sets, and the verdict is of the chosen one.
     return set.is_proved() && set.start_share <= 1.0 &&
            rigor::certainly_less(Interval(lowered().frequency_error), required);
   }

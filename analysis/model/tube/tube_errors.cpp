@@ -247,6 +247,8 @@ double bound_reach(const TrackerModel& model, const Tube& tube, double radius, c
         square_of_length = square_of_length + square(Interval(component));
       }
       const Interval range = frequency_error(model, frame, state_in(frame.here, radius, x)).range();
+      // cannot bind (square_of_length): it was divided by a little more than its root, and what is no number
+      // has no range.
       const bool is_known =
           rigor::certainly_less_equal(square_of_length, Interval(1.0)) && !rigor::is_empty(range);
       reach = std::min(reach, !is_known ? 0.0 : sign > 0.0 ? range.lower() : -range.upper());

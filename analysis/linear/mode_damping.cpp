@@ -98,10 +98,10 @@ Verdict is_damped(const Disc& disc, const Interval& least) {
   }
   const Interval inner = size - Interval(disc.radius);
   // cannot bind (inner): the square of a logarithm of what may be 0 has no upper bound.
-  const bool is_less =
-      rigor::certainly_less_equal(Interval(1.0), inner) ||
-      (rigor::certainly_positive(inner) &&
-       rigor::certainly_less(square(log(inner)) * room, square(smallest_angle(disc) * least)));
+  const bool has_logarithm = rigor::certainly_positive(inner);
+  const bool is_less = rigor::certainly_less_equal(Interval(1.0), inner) ||
+                       (has_logarithm && rigor::certainly_less(square(log(inner)) * room,
+                                                               square(smallest_angle(disc) * least)));
   return is_less ? Verdict::refuted : Verdict::undecided;
 }
 

@@ -67,7 +67,6 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
   rigor::IntervalVector<3> bounds;
   bounds << question.amplitude_error, question.phase_error, question.offset_error;
   const Interval start = frame.length_of(bounds);
-  // cannot bind (start): the probability would come out above 1.
   if (!rigor::certainly_less_equal(start, Interval(drift.radius))) {
     return std::nullopt;
   }

@@ -27,9 +27,8 @@ struct Claim {
   std::string statement;  ///< one sentence with all its hypotheses, with units
   /// The beginning of the statement, if it states the hypotheses; empty if they stand elsewhere.
   std::string hypotheses = {};
-  std::string requirement;  ///< the requirement of [require], in short; empty when there is none
-  std::string finding =
-      {};  ///< in short, what the headline also says to be refuted though it is not required
+  std::string requirement;   ///< the requirement of [require], in short; empty when there is none
+  std::string finding = {};  ///< in short, where the headline names it once it is refuted
   rigor::Verdict verdict = rigor::Verdict::undecided;
   bool required = false;  ///< is in [require] of the design file
   Position position;      ///< of the requirement in the design file; line 0 when it is not required

@@ -149,8 +149,10 @@ std::string headline(const Certificate& certificate, const Verification& verific
   std::vector<std::string> verdicts;
   for (const Claim& claim : certificate.claims) {
     if (!claim.finding.empty() && claim.verdict == Verdict::refuted) {
-      verdicts.insert(verdicts.begin(), "REFUTED: " + claim.finding);
+      verdicts.push_back("REFUTED: " + claim.finding);
     }
+  }
+  for (const Claim& claim : certificate.claims) {
     if (claim.required) {
       verdicts.push_back(upper_case(rigor::to_string(claim.verdict)) + ": " + claim.requirement);
     }

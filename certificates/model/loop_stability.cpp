@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -42,6 +43,15 @@ bool is_stable(const ModelTables& tables, std::size_t parameter, double value) {
   return radius && *radius < 1.0;
 }
 
+/// Whether it only converts a unit of the frequency, such as the time between samples: its sign is right.
+bool is_of_unit(const Model& model, std::size_t parameter) {
+  const auto& instructions = model.recursion.frequency.instructions();
+  const auto place = static_cast<int>(parameter);
+  return std::any_of(instructions.begin(), instructions.end(), [&](const trackers::Instruction& each) {
+    return each.first == place || each.second == place;
+  });
+}
+
 /// Between a stable and an unstable value.
 double crossing(const ModelTables& tables, std::size_t parameter, double stable, double unstable) {
   constexpr int kSteps = 30;
@@ -65,7 +75,7 @@ std::vector<StabilityLimit> stability_limits(const ModelTables& tables) {
     if (value == 0.0) {
       continue;
     }
-    if (is_stable(tables, i, -value)) {
+    if (!is_of_unit(model, i) && is_stable(tables, i, -value)) {
       limits.push_back({name, value, -value, StabilityLimit::Stable::at});
       continue;
     }

@@ -18,8 +18,9 @@ struct StabilityLimit {
   Stable stable = Stable::below;
 };
 
-/// For each parameter that is a number or a formula of its own: with the other sign, or within a factor of
-/// 1000. Parameters without a limit are left out. Needs the upward rounding mode.
+/// For each parameter that is a number or a formula of its own: with the other sign (unless the estimated
+/// frequency depends on it directly, as on the time between samples), or within a factor of 1000. Parameters
+/// without a limit are left out. Needs the upward rounding mode.
 [[nodiscard]] std::vector<StabilityLimit> stability_limits(const ModelTables& tables);
 
 }  // namespace veritrack::certificates

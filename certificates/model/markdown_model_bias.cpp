@@ -55,7 +55,7 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
   const bool settles = std::all_of(tubes.begin(), tubes.end(),
                                    [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   if (sets.slices.empty() || !settles) {
-    const bool is_by_gains = sets.phases.has_value();
+    const bool is_by_gains = sets.phases && !sets.starts.is_proved() && sets.phases->starts.is_proved();
     return std::string("## Bias and ripple\n\n") +
            (is_by_gains
                 ? "What is proved of them for the whole band stands at the top. Single cells need a "

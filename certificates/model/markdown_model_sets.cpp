@@ -254,8 +254,8 @@ std::string without_gains(const ModelSets& sets) {
   }
   return reasons.empty() ? std::string()
                          : fmt::format(
-                               "Gains, which mostly prove more than tubes, were tried and do not cover "
-                               "this loop ({}).\n\n",
+                               "Gains, which mostly prove more than tubes, were tried and prove "
+                               "nothing here ({}).\n\n",
                                markdown::escaped(fmt::format("{}", fmt::join(reasons, "; "))));
 }
 

@@ -234,7 +234,7 @@ class ModelClaims {
       const std::string growth = below(radius.lower);
       claim.values = {{"growth", growth}};
       claim.verdict = Verdict::refuted;
-      claim.finding = "the steady state is stable";
+      claim.finding = "the steady state of the certificate is stable";
       claim.statement += fmt::format(
           ", the steady state of the certificate is stable: to first order, no error about it grows by a "
           "factor of {} "

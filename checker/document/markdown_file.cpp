@@ -216,9 +216,9 @@ void check_top(const Lines& lines, Objections& objections) {
 
 std::string headline(const Verification& verified) {
   const bool is_asked = !verified.requirements.empty();
-  const std::string text = is_asked && verified.requirements_proved ? "# "
-                           : is_asked                               ? "# NOT PROVED"
-                                                                    : "# Nothing is required of this design";
+  const std::string text = !is_asked                      ? "Nothing is required of this design"
+                           : verified.requirements_proved ? ""
+                                                          : "NOT PROVED";
   std::string verdicts;
   const auto say = [&](Verdict verdict, const std::string& what) {
     verdicts += (verdicts.empty() ? "" : "; ") + word_of(verdict) + ": " + what;
@@ -231,7 +231,7 @@ std::string headline(const Verification& verified) {
   for (const Requirement& requirement : verified.requirements) {
     say(requirement.verdict, requirement.text);
   }
-  return text + (text == "# " || verdicts.empty() ? "" : ". ") + verdicts;
+  return "# " + text + (text.empty() || verdicts.empty() ? "" : ". ") + verdicts;
 }
 
 void compare_with_markdown(const Verification& verified, const std::string& certificate_sha256,

@@ -16,9 +16,8 @@ struct KnownLimits {
 };
 
 /// Empty where no basis with constant coefficients was found, where the rules do not cover the loop, or where
-/// its bound in the long run is far from that of the linear recursion: then tubes may be better. `reason`
-/// then receives why. Less than what is known is not searched for. Parts of the frequencies are worked on in
-/// parallel. Needs the upward rounding mode.
+/// no bounds close, even without noise. `reason` then receives why. Less than what is known is not searched
+/// for. Parts of the frequencies are worked on in parallel. Needs the upward rounding mode.
 [[nodiscard]] std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, KnownLimits known,
                                                              std::string* reason = nullptr);
 

@@ -218,7 +218,7 @@ Claim GainClaims::stability(const Tree& claim) const {
     const bool grows =
         is_constant && certainly_at_most(one, factor) && an_eigenvalue_beyond(network_->matrix, factor);
     found.verdict = grows ? Verdict::refuted : Verdict::undecided;
-    found.finding = "the steady state is stable";
+    found.finding = "the steady state of the certificate is stable";
     return found;
   }
   const Ball factor = written(claim, "decay");

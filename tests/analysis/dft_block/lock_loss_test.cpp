@@ -143,6 +143,14 @@ TEST_CASE("what is no drift is not verified") {
   auto far = asked;
   far.offset_error = Interval(0.5);
   CHECK_FALSE(dft_block::loss_bound(far, *frame, drift, 0.1));
+  // Nor one that is a little outside, where all numbers are finite.
+  rigor::IntervalVector<3> starts;
+  starts << asked.amplitude_error, asked.phase_error, asked.offset_error;
+  dft_block::LockDrift tight = drift;
+  tight.radius = 1.1 * frame->length_of(starts).upper();
+  CHECK(dft_block::loss_bound(asked, *frame, tight, 0.1));
+  tight.radius = 0.9 * frame->length_of(starts).lower();
+  CHECK_FALSE(dft_block::loss_bound(asked, *frame, tight, 0.1));
   auto silent = asked;
   silent.deviation = Interval(0.0);
   CHECK_FALSE(dft_block::loss_bound(silent, *frame, drift, 0.1));

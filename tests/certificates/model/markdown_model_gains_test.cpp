@@ -43,7 +43,8 @@ TEST_CASE("an unstable loop is refuted, with what would make it stable") {
   CHECK(text.find("The steady state below is unstable") != std::string::npos);
   // 2 kp - ki < 4
   CHECK(text.find("| `kp` | 2.1 | below 2.015 |") != std::string::npos);
-  CHECK(headline(certificate).starts_with("NOT PROVED. REFUTED: the steady state is stable; UNDECIDED: "));
+  CHECK(headline(certificate)
+            .starts_with("NOT PROVED. REFUTED: the steady state of the certificate is stable; UNDECIDED: "));
   const auto answers = model_answers(certificate);
   REQUIRE(answers.size() == 1);
   CHECK(answers.front()->id == "model/stability");

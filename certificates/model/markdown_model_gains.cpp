@@ -49,31 +49,49 @@ std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions
          markdown::table({"Cause", "Frequency error", "Share"}, rows) + "\n";
 }
 
-std::string steady_state_table(const model::GainProof& proof, const Model& model) {
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < proof.steady.size(); ++i) {
-    const model::SteadyValue& each = proof.steady[i];
-    std::string value = each.turns != 0 ? (each.turns == 1 ? "phi" : fmt::format("{} phi", each.turns)) : "";
-    const auto add = [&](double number, const std::string& unit) {
-      if (number != 0.0) {
-        value += fmt::format("{}{:.6g}{}",
-                             value.empty() ? (number < 0.0 ? "-" : "") : (number < 0.0 ? " - " : " + "),
-                             std::fabs(number), unit);
-      }
-    };
-    if (std::fabs(each.per_frequency) == 1.0) {
-      value += each.per_frequency < 0.0 ? (value.empty() ? "-omega" : " - omega")
-                                        : (value.empty() ? "omega" : " + omega");
-    } else {
-      add(each.per_frequency, " omega");
+/// "phi + omega - 0.5".
+std::string steady_text(const model::SteadyValue& each) {
+  std::string value = each.turns != 0 ? (each.turns == 1 ? "phi" : fmt::format("{} phi", each.turns)) : "";
+  const auto add = [&](double number, const std::string& unit) {
+    if (number != 0.0) {
+      value += fmt::format("{}{:.6g}{}",
+                           value.empty() ? (number < 0.0 ? "-" : "") : (number < 0.0 ? " - " : " + "),
+                           std::fabs(number), unit);
     }
-    add(each.constant, "");
-    rows.push_back({"`" + model.states[i] + "`", "`" + (value.empty() ? "0" : value) + "`"});
+  };
+  if (std::fabs(each.per_frequency) == 1.0) {
+    value += each.per_frequency < 0.0 ? (value.empty() ? "-omega" : " - omega")
+                                      : (value.empty() ? "omega" : " + omega");
+  } else {
+    add(each.per_frequency, " omega");
+  }
+  add(each.constant, "");
+  return value.empty() ? "0" : value;
+}
+
+std::string steady_state_table(const model::GainProof& proof, const Model& model) {
+  std::vector<std::string> texts;
+  for (const model::SteadyValue& each : proof.steady) {
+    texts.push_back(steady_text(each));
+  }
+  std::string note;
+  if (const auto vector = model::vector_of(proof.steady)) {
+    const std::string angle = texts[vector->real];
+    texts[vector->real] = "R cos(" + angle + ")";
+    texts[vector->imaginary] = "R sin(" + angle + ")";
+    note = fmt::format(
+        "\nR is any length above 0: of `{}` and `{}` the step takes the direction alone, so both "
+        "are one angle here. An error of their length is gone after a sample.\n",
+        model.states[vector->real], model.states[vector->imaginary]);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    rows.push_back({"`" + model.states[i] + "`", "`" + texts[i] + "`"});
   }
   return "The steady state after a sample at the phase phi, at the frequency omega in rad/sample (all digits "
          "are "
          "in `certificate.json`):\n\n" +
-         markdown::table({"State", "Is"}, rows) + "\n";
+         markdown::table({"State", "Is"}, rows) + note + "\n";
 }
 
 /// The first sample from which on the share stays within 2 % of 1.
@@ -137,13 +155,14 @@ std::string linear_table(const model::GainProof& proof, const ModelAssumptions& 
 }
 
 /// Of an unstable loop: what would make it stable.
-std::string stability_text(const Certificate& certificate) {
+std::string stability_text(const Certificate& certificate, const model::GainProof& proof) {
   std::string text =
       "The steady state below is unstable: errors about it grow, however small they are at first. No stable "
       "one was "
       "found from `start`, half a turn further, or by simulation.\n\n";
   std::vector<std::vector<std::string>> rows;
-  for (const StabilityLimit& limit : stability_limits(model_tables(certificate.design))) {
+  for (const StabilityLimit& limit :
+       stability_limits(model_tables(certificate.design), model::vector_of(proof.steady))) {
     rows.push_back({"`" + limit.parameter + "`", fmt::format("{:.6g}", limit.value),
                     fmt::format("{} {:.4g}",
                                 limit.stable == StabilityLimit::Stable::below   ? "below"
@@ -222,7 +241,7 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
                    "is known"
                  : "The loop does not depend on the phase at which its signal begins");
   if (!proof.gains) {
-    text += stability_text(certificate);
+    text += stability_text(certificate, proof);
   } else if (proof.assumed) {
     text += budget_table(*proof.assumed, assume, units);
     text += attack_text(sets, model, assume, units);

@@ -188,6 +188,9 @@ Json gains_json(const model::GainProof& proof) {
     steady.push_back({{"turns", each.turns},
                       {"constant", rigor::to_hexadecimal(each.constant)},
                       {"per_frequency", rigor::to_hexadecimal(each.per_frequency)}});
+    if (each.imaginary) {
+      steady.back()["imaginary"] = *each.imaginary;
+    }
   }
   Json json{{"steady_state", steady}};
   if (proof.gains) {

@@ -21,11 +21,12 @@ bool moves_on(const TrackedModel& model) {
   const Jet<Ball> amplitude(model.amplitude);
   for (int k = 0; k < kParts; ++k) {
     const Ball phase = Ball::hull(Ball(k), Ball(k + 1)) * (two * pi() / Ball(kParts));
-    Ball squares;
-    for (const Jet<Ball>& sample : model.recursion->signal(amplitude, Jet<Ball>::variable(phase, 0, 1))) {
-      squares += square(sample.slope(0));
-    }
-    if (!certainly_positive(squares)) {
+    const std::vector<Jet<Ball>> samples =
+        model.recursion->signal(amplitude, Jet<Ball>::variable(phase, 0, 1));
+    const bool moves = std::any_of(samples.begin(), samples.end(), [](const Jet<Ball>& sample) {
+      return certainly_positive(abs(sample.slope(0)));
+    });
+    if (!moves) {
       return false;
     }
   }

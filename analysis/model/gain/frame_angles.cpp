@@ -38,7 +38,7 @@ bool FrameRules::find_pattern(Frame& frame, const Waves& y, const Waves& x, Wave
   return true;
 }
 
-FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int turns_per_period) {
+FrameLine FrameRules::whole_angle(Frame& frame, const WavePattern& pattern) {
   const double sign = pattern.sign;
   FrameLine angle = scaled(phase_of(frame, pattern.monomial), Interval(sign), sign);
   if (pattern.monomial.order != 0 && frame.channels_ == 2) {
@@ -54,11 +54,16 @@ FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int t
     place->second += Interval(sign * pattern.monomial.order);
   }
   angle.constant += Interval(0.5 * pattern.quarters) * rigor::pi();
+  angle.is_modular = true;
+  return angle;
+}
+
+FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int turns_per_period) {
+  FrameLine angle = whole_angle(frame, pattern);
   if (angle.turns != 0) {
     if (turns_per_period != 1) {
       throw NoFrame("a value that depends on the phase of the signal");
     }
-    angle.is_modular = true;
     return angle;
   }
   const Interval half_period = rigor::pi() / Interval(static_cast<double>(turns_per_period));
@@ -69,6 +74,16 @@ FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int t
   angle.is_modular = false;
   add_limit(frame, add_angle_form(frame, angle), half_period - Interval(rigor::magnitude(base - moved)));
   return angle;
+}
+
+FrameLine Frame::direction_of(const FrameValue& real, const FrameValue& imaginary) {
+  WavePattern pattern;
+  if (real.kind() != Kind::waves || imaginary.kind() != Kind::waves ||
+      !FrameRules::find_pattern(*this, imaginary.waves(), real.waves(), pattern) ||
+      !pattern.monomial.lengths.empty()) {
+    throw NoFrame("a vector of states that does not follow the direction of the samples");
+  }
+  return FrameRules::whole_angle(*this, pattern);
 }
 
 namespace {
@@ -98,7 +113,7 @@ FrameValue sine(const FrameValue& a, FrameOperation operation, WaveWeights weigh
 bool reciprocal_of(Frame& frame, const FrameValue& x, Waves& result) {
   Waves waves;
   if (!FrameRules::as_waves(x, waves) || waves.size() != 1 || !waves.begin()->first.is_real() ||
-      waves.begin()->first.noise > 0) {
+      waves.begin()->first.noise > 0 || !waves.begin()->first.lengths.empty()) {
     return false;
   }
   const auto& [monomial, weights] = *waves.begin();
@@ -123,7 +138,7 @@ bool reciprocal_of(Frame& frame, const FrameValue& x, Waves& result) {
 bool root_of(const Waves& waves, Waves& result) {
   if (waves.size() != 1 || !waves.begin()->first.is_real() || waves.begin()->first.noise > 0 ||
       waves.begin()->first.magnitude % 2 != 0 || !waves.begin()->first.factors.empty() ||
-      !(waves.begin()->second.real > 0.0)) {
+      !waves.begin()->first.lengths.empty() || !(waves.begin()->second.real > 0.0)) {
     return false;
   }
   const double root = std::round(std::sqrt(waves.begin()->second.real) * 0x1p10) * 0x1p-10;
@@ -217,7 +232,8 @@ FrameValue asin(const FrameValue& a) {
   if (a.kind() == Kind::waves && a.waves().size() == 1) {
     const auto& [monomial, weights] = *a.waves().begin();
     const bool is_sine = monomial.magnitude == 0 && monomial.noise == 0 && monomial.factors.empty() &&
-                         weights.real == 0.0 && std::fabs(weights.imaginary) == 1.0;
+                         monomial.lengths.empty() && weights.real == 0.0 &&
+                         std::fabs(weights.imaginary) == 1.0;
     if (is_sine) {
       const WavePattern pattern{monomial, weights.imaginary > 0.0 ? 1 : -1, 0};
       return {a.frame(), FrameRules::named(*a.frame(), FrameOperation::arcsine, a.name()),

@@ -202,6 +202,9 @@ FrameLine FrameRules::part_of_wave(Frame& frame, const Monomial& monomial, int p
   if (found != frame.parts_.end()) {
     return found->second;
   }
+  if (!monomial.lengths.empty()) {
+    throw NoFrame("the length of a vector of states matters");
+  }
   const FrameLine phase = phase_of(frame, monomial);
   FrameLine line;
   if (monomial.noise > 0) {

@@ -34,7 +34,8 @@ enum class FrameOperation {
   least,
   absolute,
   limits,
-  clamped
+  clamped,
+  vector
 };
 
 /// Where Y = value Im-like and X = value Re-like of one wave M: X + i Y = kappa M or kappa conj(M), with
@@ -82,7 +83,9 @@ struct FrameRules {
   static int exact_factor(Frame& frame, double number);
   static int reciprocal_factor(Frame& frame, int factor);
   static bool find_pattern(Frame& frame, const Waves& y, const Waves& x, WavePattern& pattern);
-  /// The angle of kappa M: with a limit at half of the period where it has no turns.
+  /// The angle of kappa M, up to whole turns.
+  static FrameLine whole_angle(Frame& frame, const WavePattern& pattern);
+  /// The same: with a limit at half of the period where it has no turns.
   static FrameLine angle_line(Frame& frame, const WavePattern& pattern, int turns_per_period);
 };
 

@@ -25,6 +25,15 @@ bool has_few_digits(double value) {
   return std::fabs(value) <= kMost && std::nearbyint(value * kMost) == value * kMost;
 }
 
+/// No zeros are kept.
+void add_power(std::map<int, int>& powers, int of, int power) {
+  const auto place = powers.try_emplace(of, 0).first;
+  place->second += power;
+  if (place->second == 0) {
+    powers.erase(place);
+  }
+}
+
 double required_exact(double value) {
   if (!has_few_digits(value)) {
     throw NoFrame("a factor of a sine or cosine is too long");
@@ -139,11 +148,10 @@ Waves FrameRules::product_of(const Waves& a, const Waves& b) {
         both.order += sign * n.order;
         both.noise += n.noise;
         for (const auto& [name, multiple] : n.angles) {
-          int& sum = both.angles[name];
-          sum += sign * multiple;
-          if (sum == 0) {
-            both.angles.erase(name);
-          }
+          add_power(both.angles, name, sign * multiple);
+        }
+        for (const auto& [vector, power] : n.lengths) {
+          add_power(both.lengths, vector, power);
         }
         both.factors.insert(both.factors.end(), n.factors.begin(), n.factors.end());
         std::sort(both.factors.begin(), both.factors.end());
@@ -267,6 +275,19 @@ FrameValue Frame::state(int state, bool is_angle, int turns, double constant, do
   line.states.assign(static_cast<std::size_t>(states_), Interval(0.0));
   line.states.at(static_cast<std::size_t>(state)) = Interval(1.0);
   return {this, FrameRules::named(*this, FrameOperation::state, state), std::move(line)};
+}
+
+std::array<FrameValue, 2> Frame::vector(int real, int turns, double constant, double per_frequency) {
+  const FrameValue angle = state(real, true, turns, constant, per_frequency);
+  FrameRules::keep_angle(*this, angle.name(), angle.line());
+  const auto part = [&](int which) {
+    Waves waves;
+    FrameRules::add_wave(waves, {0, 0, 0, {{angle.name(), 1}}, {}, {{real, 1}}},
+                         {which == 0 ? 1.0 : 0.0, which == 0 ? 0.0 : 1.0});
+    return FrameValue(this, FrameRules::named(*this, FrameOperation::vector, real, which),
+                      FrameValue::Kind::waves, std::move(waves));
+  };
+  return {part(0), part(1)};
 }
 
 FrameValue Frame::sample(int channel) {

@@ -2,6 +2,7 @@
 // step is a linear recursion of the errors with inputs whose sizes are known.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -36,12 +37,13 @@ struct FrameLine {
 
 /// |y|^magnitude e^(i (order arg y + sum of k L)), times the constants in `factors`; L and constants by name.
 /// With one channel |y| stands for the amplitude, arg y for the phase of the sample, and the noise is a
-/// factor.
+/// factor. `lengths`: times powers of the lengths of vectors of states, of which nothing else is known.
 struct Monomial {
   int magnitude = 0, order = 0;
-  int noise = 0;              ///< the power of the noise; one channel
-  std::map<int, int> angles;  ///< k by the name of L, not 0
-  std::vector<int> factors;   ///< names of constants, in order
+  int noise = 0;                    ///< the power of the noise; one channel
+  std::map<int, int> angles;        ///< k by the name of L, not 0
+  std::vector<int> factors;         ///< names of constants, in order
+  std::map<int, int> lengths = {};  ///< powers that are not 0, by the vector's real part
 
   [[nodiscard]] bool is_real() const { return order == 0 && angles.empty(); }
   friend auto operator<=>(const Monomial&, const Monomial&) = default;  // NOLINT(modernize-use-nullptr)
@@ -147,6 +149,12 @@ class Frame {
   [[nodiscard]] FrameValue state(int state, bool is_angle, int turns, double constant, double per_frequency);
   /// The real (0) or imaginary (1) part of a sample at the phase phi + omega; of one channel the sample.
   [[nodiscard]] FrameValue sample(int channel);
+  /// States that are the two parts of a vector of any length: its angle is turns phi + constant +
+  /// per_frequency omega + the deviation of state number `real`.
+  [[nodiscard]] std::array<FrameValue, 2> vector(int real, int turns, double constant, double per_frequency);
+  /// The angle of a vector with these two parts, up to whole turns, where its length is certainly positive
+  /// and depends on that of no vector before. Throws NoFrame.
+  [[nodiscard]] FrameLine direction_of(const FrameValue& real, const FrameValue& imaginary);
   /// A linear value equal to this one. Throws NoFrame where it depends on the phase.
   [[nodiscard]] FrameLine line_of(const FrameValue& value);
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "analysis/model/gain/steady_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -13,15 +14,6 @@ namespace veritrack::model {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-
-Eigen::VectorXd state_at(const std::vector<SteadyValue>& steady, double phase, double omega) {
-  Eigen::VectorXd state(static_cast<Eigen::Index>(steady.size()));
-  for (std::size_t i = 0; i < steady.size(); ++i) {
-    state(static_cast<Eigen::Index>(i)) =
-        steady[i].turns * phase + steady[i].constant + steady[i].per_frequency * omega;
-  }
-  return state;
-}
 
 /// The directions of the noise in the frame of the signal, and the signs of the slew, by sample.
 struct Adjoint {
@@ -33,27 +25,27 @@ Adjoint adjoint_of(const TrackedTone& tone, const std::vector<SteadyValue>& stea
                    std::size_t samples) {
   const auto n = static_cast<Eigen::Index>(steady.size());
   const bool is_one = tone.step.recursion().samples == 1;
+  const bool has_vectors =
+      std::any_of(steady.begin(), steady.end(), [](const SteadyValue& each) { return each.imaginary; });
+  // With two channels the steady state is a point in the frame of the signal, but for vectors.
+  const bool is_point = !is_one && !has_vectors;
   const auto slope_at = [&](double phase) {
-    return tone.step.jacobian(state_at(steady, phase, omega),
+    return tone.step.jacobian(state_at(tone, steady, phase, omega),
                               samples_of(tone.signal, tone.amplitude, phase + omega));
   };
-  // With two channels it turns with the signal.
   const Eigen::MatrixXd first = slope_at(0.0);
-  Eigen::VectorXd moved(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    moved(i) = -steady[static_cast<std::size_t>(i)].per_frequency;
-  }
-  Eigen::RowVectorXd row = tone.step.frequency_gradient(state_at(steady, 0.0, omega));
+  const double last = is_point ? 0.0 : std::remainder(static_cast<double>(samples) * omega, kTurn);
+  Eigen::RowVectorXd row = tone.step.frequency_gradient(state_at(tone, steady, last, omega));
   Adjoint adjoint{std::vector<std::complex<double>>(samples), std::vector<double>(samples)};
   for (std::size_t k = samples; k-- > 0;) {
-    const Eigen::MatrixXd slope =
-        is_one ? slope_at(std::remainder(static_cast<double>(k) * omega, kTurn)) : first;
+    const double phase = is_point ? 0.0 : std::remainder(static_cast<double>(k) * omega, kTurn);
+    const Eigen::MatrixXd slope = is_point ? first : slope_at(phase);
     const Eigen::RowVectorXd effect = row * slope.rightCols(slope.cols() - n);
     const std::complex<double> direction =
         is_one ? std::complex<double>(effect(0), 0.0)
-               : std::complex<double>(effect(0), effect(1)) * std::polar(1.0, -omega);
+               : std::complex<double>(effect(0), effect(1)) * std::polar(1.0, -phase - omega);
     adjoint.noise[k] = std::abs(direction) > 0.0 ? direction / std::abs(direction) : 0.0;
-    adjoint.slew[k] = row.dot(moved) > 0.0 ? 1.0 : -1.0;
+    adjoint.slew[k] = row.dot(state_per_frequency(tone, steady, phase + omega, omega)) < 0.0 ? 1.0 : -1.0;
     row = (row * slope.leftCols(n)).eval();
   }
   return adjoint;
@@ -71,7 +63,7 @@ double attack_loop(const TrackedTone& tone, const std::vector<SteadyValue>& stea
   for (const double angle : {0.0, lean}) {
     double frequency = omega;
     double phase = 0.0;
-    Eigen::VectorXd state = state_at(steady, phase, frequency);
+    Eigen::VectorXd state = state_at(tone, steady, phase, frequency);
     for (std::size_t k = 0; k < samples; ++k) {
       phase += frequency;
       if (std::fabs(phase) > kTurn) {
@@ -79,7 +71,7 @@ double attack_loop(const TrackedTone& tone, const std::vector<SteadyValue>& stea
         const double turn = std::copysign(kTurn, phase);
         phase -= turn;
         for (std::size_t i = 0; i < steady.size(); ++i) {
-          state(static_cast<Eigen::Index>(i)) -= steady[i].turns * turn;
+          state(static_cast<Eigen::Index>(i)) -= steady[i].imaginary ? 0.0 : steady[i].turns * turn;
         }
       }
       Eigen::VectorXd sample = samples_of(tone.signal, tone.amplitude, phase);

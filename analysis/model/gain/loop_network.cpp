@@ -39,12 +39,6 @@ Interval weight_of(const FrameLine& line, int component) {
   return found == line.inputs.end() ? Interval(0.0) : found->second;
 }
 
-/// Of a proposed steady state at one frequency: how far a step leads away from it, and the matrix.
-struct Residual {
-  Eigen::VectorXd value;
-  Eigen::MatrixXd slope;
-};
-
 class Assembly {
  public:
   Assembly(const TrackerModel& tracker, const std::vector<SteadyValue>& steady, const Interval& band)
@@ -54,11 +48,11 @@ class Assembly {
         frame_(tracker.amplitude, band, static_cast<int>(steady.size()), tracker.recursion->samples) {}
 
   /// Not evidence.
-  [[nodiscard]] Residual residual() {
+  [[nodiscard]] StepResidual residual() {
     run_formulas();
     add_matrix();
     const auto n = static_cast<Eigen::Index>(states_);
-    Residual result{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
+    StepResidual result{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
     for (std::size_t i = 0; i < states_; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       result.value(row) = rigor::midpoint(residual_of(i));
@@ -86,12 +80,7 @@ class Assembly {
 
  private:
   void run_formulas() {
-    std::vector<FrameValue> values;
-    for (std::size_t i = 0; i < states_; ++i) {
-      const SteadyValue& each = (*steady_)[i];
-      values.push_back(frame_.state(static_cast<int>(i), tracker_->recursion->is_angle[i], each.turns,
-                                    each.constant, each.per_frequency));
-    }
+    std::vector<FrameValue> values = frame_states();
     const std::vector<FrameValue> error =
         run(tracker_->recursion->frequency, frame_, tracker_->constants, values);
     frequency_ = frame_.line_of(error.front());
@@ -101,15 +90,49 @@ class Assembly {
     for (int channel = 0; channel < tracker_->recursion->samples; ++channel) {
       values.push_back(frame_.sample(channel));
     }
-    for (const FrameValue& each : run(tracker_->recursion->step, frame_, tracker_->constants, values)) {
-      next_.push_back(frame_.line_of(each));
+    const std::vector<FrameValue> results =
+        run(tracker_->recursion->step, frame_, tracker_->constants, values);
+    next_.resize(states_);
+    std::vector<bool> is_part(states_, false);
+    for (std::size_t i = 0; i < states_; ++i) {
+      if (const auto& imaginary = (*steady_)[i].imaginary) {
+        next_[i] = frame_.direction_of(results[i], results[*imaginary]);
+        is_part[i] = is_part[*imaginary] = true;  // what is left of the other part does not matter
+      }
     }
+    for (std::size_t i = 0; i < states_; ++i) {
+      next_[i] = is_part[i] ? next_[i] : frame_.line_of(results[i]);
+    }
+  }
+
+  [[nodiscard]] std::vector<FrameValue> frame_states() {
+    std::vector<std::optional<FrameValue>> parts(states_);
+    for (std::size_t i = 0; i < states_; ++i) {
+      const SteadyValue& each = (*steady_)[i];
+      if (each.imaginary) {
+        const auto both = frame_.vector(static_cast<int>(i), each.turns, each.constant, each.per_frequency);
+        parts[i] = both[0];
+        parts[*each.imaginary] = both[1];
+      }
+    }
+    std::vector<FrameValue> values;
+    for (std::size_t i = 0; i < states_; ++i) {
+      const SteadyValue& each = (*steady_)[i];
+      values.push_back(parts[i] ? *parts[i]
+                                : frame_.state(static_cast<int>(i), tracker_->recursion->is_angle[i],
+                                               each.turns, each.constant, each.per_frequency));
+    }
+    return values;
+  }
+
+  /// Known up to whole turns.
+  [[nodiscard]] bool is_angle(std::size_t i) const {
+    return tracker_->recursion->is_angle[i] || (*steady_)[i].imaginary;
   }
 
   void add_matrix() {
     for (std::size_t i = 0; i < states_; ++i) {
-      const bool is_angle = tracker_->recursion->is_angle[i];
-      if (next_[i].turns != (*steady_)[i].turns || (next_[i].is_modular && !is_angle)) {
+      if (next_[i].turns != (*steady_)[i].turns || (next_[i].is_modular && !is_angle(i))) {
         throw NoFrame("a state that does not turn as its steady state does");
       }
       network_.a.push_back(states_of(next_[i], states_));
@@ -147,7 +170,7 @@ class Assembly {
         next_[i].constant - Interval(each.constant) +
         (next_[i].per_frequency - Interval(each.per_frequency) - Interval(static_cast<double>(each.turns))) *
             frame_.band();
-    if (tracker_->recursion->is_angle[i]) {
+    if (is_angle(i)) {
       const Interval turn = Interval(2.0) * rigor::pi();
       residual -= Interval(std::round(rigor::midpoint(residual) / rigor::midpoint(turn))) * turn;
     }
@@ -326,45 +349,6 @@ class Assembly {
   LoopNetwork network_;
 };
 
-/// The steady state at one frequency, if Newton's method finds one: by the residual of the network.
-std::optional<Eigen::VectorXd> steady_at(const TrackerModel& tracker, double omega,
-                                         std::vector<double> state) {
-  constexpr int kSteps = 50;
-  const auto n = static_cast<Eigen::Index>(state.size());
-  double last = INFINITY;
-  for (int step = 0; step < kSteps; ++step) {
-    std::vector<SteadyValue> steady;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      steady.push_back({tracker.recursion->is_angle[i] ? 1 : 0, state[i], 0.0});
-    }
-    const Residual residual = Assembly(tracker, steady, Interval(omega)).residual();
-    const Eigen::VectorXd change =
-        rigor::product(rigor::approximate_inverse(residual.slope - rigor::identity(n)), residual.value);
-    if (!change.allFinite()) {
-      return std::nullopt;
-    }
-    double size = 0.0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      double& each = state[static_cast<std::size_t>(i)];
-      each -= change(i);
-      // What a step adds to the state is rounded, however small the state is in its unit.
-      double scale = std::max(std::fabs(each), 1e-6);
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const auto other = static_cast<std::size_t>(j);
-        const double natural = tracker.recursion->is_angle[other] ? 1.0 : std::fabs(state[other]);
-        scale = std::max(scale, j == i ? 0.0 : std::fabs(residual.slope(i, j)) * natural);
-      }
-      size = std::max(size, std::fabs(change(i)) / scale);
-    }
-    // As near as rounding lets it come.
-    if (size < 1e-14 || (size < 1e-6 && size >= 0.5 * last)) {
-      return Eigen::Map<const Eigen::VectorXd>(state.data(), n);
-    }
-    last = size;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
@@ -375,34 +359,9 @@ LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyVa
   return Assembly(tracker, steady, band).make();
 }
 
-std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackerModel& tracker,
-                                                              const StartState& start, double low,
-                                                              double high) {
-  const std::vector<bool>& is_angle = tracker.recursion->is_angle;
-  const auto first = steady_at(tracker, low, start(low));
-  const auto second = steady_at(tracker, high, start(high));
-  if (!first || !second) {
-    return std::nullopt;
-  }
-  std::vector<SteadyValue> steady;
-  for (std::size_t i = 0; i < is_angle.size(); ++i) {
-    const auto place = static_cast<Eigen::Index>(i);
-    double change = (*second)(place) - (*first)(place);
-    if (is_angle[i]) {
-      change = std::remainder(change, 2.0 * rigor::midpoint(rigor::pi()));
-    }
-    const double size = std::max(std::fabs((*first)(place)), std::fabs((*second)(place)));
-    double slope = high > low && std::fabs(change) > 1e-11 * size ? change / (high - low) : 0.0;
-    // A whole number is most often meant where it is nearly one.
-    const double whole = std::round(slope);
-    slope = std::fabs(slope - whole) < 1e-9 * std::max(1.0, std::fabs(slope)) ? whole : slope;
-    double constant = (*first)(place)-slope * low;
-    const bool is_rounding =
-        std::fabs(constant) < 1e-11 * std::max(size, std::fabs(slope * low)) || std::fabs(constant) < 1e-13;
-    constant = is_rounding ? 0.0 : constant;
-    steady.push_back({is_angle[i] ? 1 : 0, constant, slope});
-  }
-  return steady;
+StepResidual step_residual(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
+                           double omega) {
+  return Assembly(tracker, steady, Interval(omega)).residual();
 }
 
 }  // namespace veritrack::model

@@ -13,11 +13,14 @@
 
 namespace veritrack::model {
 
-/// The state at the phase phi and the frequency omega: turns phi + constant + per_frequency omega.
+/// The state at the phase phi and the frequency omega: turns phi + constant + per_frequency omega. With
+/// `imaginary` it is the real part of a vector of any length with this angle, and the state of that number
+/// its imaginary part.
 struct SteadyValue {
   int turns = 0;
   double constant = 0.0;
   double per_frequency = 0.0;
+  std::optional<std::size_t> imaginary = std::nullopt;
 };
 
 /// An input of the network.
@@ -65,10 +68,13 @@ struct LoopNetwork {
 [[nodiscard]] LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
                                        const rigor::Interval& band);
 
-/// By Newton's method from `start`, at two frequencies; empty where there is none. Not evidence. Throws
-/// NoFrame. Needs the upward rounding mode.
-[[nodiscard]] std::optional<std::vector<SteadyValue>> proposed_steady_state(const TrackerModel& tracker,
-                                                                            const StartState& start,
-                                                                            double low, double high);
+/// How far a step leads away from a proposed steady state at one frequency, and the matrix. Not evidence.
+struct StepResidual {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd slope;
+};
+/// Throws NoFrame. Needs the upward rounding mode.
+[[nodiscard]] StepResidual step_residual(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
+                                         double omega);
 
 }  // namespace veritrack::model

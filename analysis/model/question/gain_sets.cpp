@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analysis/model/gain/frame_value.hpp"
+#include "analysis/model/gain/steady_proposal.hpp"
 #include "analysis/model/question/largest_value.hpp"
 #include "analysis/model/tube/false_lock.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -236,7 +237,7 @@ struct Found {
 };
 
 /// The first steady state about which errors decay, or else the first of all. Throws NoFrame.
-std::optional<Found> find_loop(const SetQuestion& question) {
+std::optional<Found> find_loop(const SetQuestion& question, const std::optional<ProposedVector>& vector) {
   const Interval& band = question.whole_band;
   // At one frequency, a little more shows how the steady state depends on it.
   const double width = std::max(band.upper() - band.lower(), 1e-3);
@@ -244,7 +245,8 @@ std::optional<Found> find_loop(const SetQuestion& question) {
   std::string objection;
   for (const StartState& start : places_to_look(question)) {
     try {
-      const auto steady = proposed_steady_state(question.tracker, start, band.lower(), band.lower() + width);
+      const auto steady =
+          proposed_steady_state(question.tracker, start, band.lower(), band.lower() + width, vector);
       if (!steady) {
         continue;
       }
@@ -263,6 +265,31 @@ std::optional<Found> find_loop(const SetQuestion& question) {
     throw NoFrame(objection);
   }
   return first;
+}
+
+/// With each state by itself, or else with two of them as a vector whose direction alone matters. A start
+/// that is assumed off the steady state says nothing of directions.
+std::optional<Found> find_loop(const SetQuestion& question) {
+  try {
+    return find_loop(question, std::nullopt);
+  } catch (const NoFrame&) {
+    for (const ProposedVector& vector : possible_vectors(question.tracker)) {
+      const auto is_off = [&](std::size_t state) {
+        return question.assumes_start && question.deviations.at(state).upper() > 0.0;
+      };
+      try {
+        if (is_off(vector.real) || is_off(vector.imaginary)) {
+          continue;
+        }
+        if (std::optional<Found> found = find_loop(question, vector)) {
+          return found;
+        }
+      } catch (const NoFrame&) {
+        continue;  // what is said of the first attempt is of more use
+      }
+    }
+    throw;
+  }
 }
 
 }  // namespace

@@ -32,6 +32,21 @@ FrameValue FrameValue::state(std::size_t index, const LinearValue& value) {
   return FrameValue(Linear{frame().state(index, value)});
 }
 
+std::array<FrameValue, 2> FrameValue::vector(std::size_t state, const LinearValue& angle) {
+  const int number = frame().state(state, angle);
+  return {FrameValue(vector_waves(state, number, 0)), FrameValue(vector_waves(state, number, 1))};
+}
+
+int FrameValue::direction(const FrameValue& real, const FrameValue& imaginary) {
+  if (real.is_sum_of_waves() && imaginary.is_sum_of_waves()) {
+    const std::optional<TurnedWave> wave = turned_wave(frame(), *imaginary.waves(), *real.waves());
+    if (wave && wave->wave.vectors.empty()) {
+      return frame().modulo_turn(argument(frame(), *wave));
+    }
+  }
+  throw NotCovered("a vector of states does not follow the direction of the samples");
+}
+
 int FrameValue::linear() const {
   if (const auto* known = std::get_if<Linear>(&value_)) {
     return known->number;

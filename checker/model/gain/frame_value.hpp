@@ -2,6 +2,7 @@
 // (docs/gain-proof.md, section 2).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +21,11 @@ class FrameValue {
   /// A constant by its place (ModelRecursion).
   static FrameValue constant(const Ball& value, std::size_t place);
   static FrameValue state(std::size_t index, const LinearValue& value);
+  /// The two parts of a vector of any length, whose real part is this state and whose angle is this value.
+  static std::array<FrameValue, 2> vector(std::size_t state, const LinearValue& angle);
+  /// The number of the angle of a vector, modulo a turn. Its length is certainly positive where noise is
+  /// below every amplitude, and depends on that of no vector before. Throws NotCovered.
+  static int direction(const FrameValue& real, const FrameValue& imaginary);
   static FrameValue sample(std::size_t channel) { return FrameValue(sample_waves(channel)); }
 
   static FrameValue sample_of_one() { return FrameValue(sample_of_one_channel()); }

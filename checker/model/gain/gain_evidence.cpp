@@ -17,6 +17,14 @@ std::vector<SteadyState> read_steady_state(const Tree& list, Objections& objecti
   for (const Tree& entry : list.elements()) {
     steady.push_back({entry.at("turns").integer(), exact_number(entry.at("constant")),
                       exact_number(entry.at("per_frequency"))});
+    if (const Tree* imaginary = entry.find("imaginary")) {
+      const long place = imaginary->integer();
+      if (place < 0) {
+        objections.emplace_back("the imaginary part of a vector is no state");
+      } else {
+        steady.back().imaginary = static_cast<std::size_t>(place);
+      }
+    }
     if (std::labs(steady.back().turns) > kMostTurns) {
       objections.emplace_back("too many turns");
     }

@@ -91,19 +91,75 @@ void require_order(const GainNetwork& network) {
   }
 }
 
+LinearValue deviating(const SteadyState& steady, std::size_t state, bool is_angle) {
+  return {steady.turns, steady.constant, steady.per_frequency, {{state, {one, zero}}}, is_angle};
+}
+
 std::vector<FrameValue> frame_states(const std::vector<SteadyState>& steady,
                                      const std::vector<bool>& is_angle) {
+  std::vector<std::optional<FrameValue>> values(steady.size());
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    if (steady[i].imaginary) {
+      const auto parts = FrameValue::vector(i, deviating(steady[i], i, true));
+      values[i] = parts[0];
+      values[*steady[i].imaginary] = parts[1];
+    }
+  }
   std::vector<FrameValue> states;
   for (std::size_t i = 0; i < steady.size(); ++i) {
-    if (steady[i].turns != 0 && !is_angle[i]) {
+    if (!values[i] && steady[i].turns != 0 && !is_angle[i]) {
       throw NotCovered("only an angle turns with the signal");
     }
-    states.push_back(FrameValue::state(
-        i,
-        LinearValue{
-            steady[i].turns, steady[i].constant, steady[i].per_frequency, {{i, {one, zero}}}, is_angle[i]}));
+    states.push_back(values[i] ? *values[i] : FrameValue::state(i, deviating(steady[i], i, is_angle[i])));
   }
   return states;
+}
+
+/// Two states each, no angles, in no other vector, and at the start as the steady state is: a length that is
+/// not known says nothing of how far an angle is off.
+void require_vectors(const std::vector<SteadyState>& steady, const std::vector<bool>& is_angle,
+                     const ModelDesign& design, std::size_t samples) {
+  std::vector<bool> is_part(steady.size(), false);
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    if (!steady[i].imaginary) {
+      continue;
+    }
+    const std::size_t other = *steady[i].imaginary;
+    if (samples != 2 || other >= steady.size() || other == i) {
+      throw NotCovered("a vector has two states, of a loop of two channels");
+    }
+    for (const std::size_t part : {i, other}) {
+      const bool starts_off =
+          !design.start_within.empty() && !certainly_equal(design.start_within.at(part), zero);
+      if (is_part[part] || is_angle[part] || starts_off) {
+        throw NotCovered(
+            "a part of a vector is an angle, is in another vector, or starts off its steady state");
+      }
+      is_part[part] = true;
+    }
+    const SteadyState& rest = steady[other];
+    if (rest.turns != 0 || rest.imaginary || !certainly_equal(rest.constant, zero) ||
+        !certainly_equal(rest.per_frequency, zero)) {
+      throw NotCovered("the imaginary part of a vector has a steady state of its own");
+    }
+  }
+}
+
+/// The numbers of the next states; of a vector, of its angle, and 0: what is left of its imaginary part.
+std::vector<int> next_numbers(LinearFrame& frame, const std::vector<FrameValue>& values,
+                              const std::vector<SteadyState>& steady) {
+  std::vector<std::optional<int>> numbers(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (const auto& imaginary = steady[i].imaginary) {
+      numbers[i] = FrameValue::direction(values[i], values[*imaginary]);
+      numbers[*imaginary] = frame.number(zero);
+    }
+  }
+  std::vector<int> result;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    result.push_back(numbers[i] ? *numbers[i] : values[i].linear());
+  }
+  return result;
 }
 
 }  // namespace
@@ -122,14 +178,12 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
   LinearFrame frame(n, design.least_amplitude, design.largest_amplitude, design.lowest, design.highest,
                     recursion.samples());
   const FrameScope scope(frame);
+  require_vectors(steady, recursion.is_angle(), design, recursion.samples());
   const std::vector<FrameValue> state = frame_states(steady, recursion.is_angle());
   const std::vector<FrameValue> samples =
       frame.has_one_channel() ? std::vector<FrameValue>{FrameValue::sample_of_one()}
                               : std::vector<FrameValue>{FrameValue::sample(0), FrameValue::sample(1)};
-  std::vector<int> next;
-  for (const FrameValue& value : recursion.next(state, samples)) {
-    next.push_back(value.linear());
-  }
+  const std::vector<int> next = next_numbers(frame, recursion.next(state, samples), steady);
   const int error = (recursion.frequency(state)).linear();
   const LinearValue frequency = frame.at(error);
   if (!frequency.is_plain()) {
@@ -170,7 +224,8 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
   bias.per_frequency = frequency.per_frequency - one;
   network.bias = frame.base(bias);
   for (std::size_t i = 0; i < n; ++i) {
-    add_state(frame, frame.at(next[i]), steady[i], recursion.is_angle()[i], i, network);
+    add_state(frame, frame.at(next[i]), steady[i], recursion.is_angle()[i] || steady[i].imaginary, i,
+              network);
   }
   GainInput slew;
   for (const SteadyState& each : steady) {

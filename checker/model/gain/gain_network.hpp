@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "checker/model/gain/linear_frame.hpp"
@@ -13,10 +14,13 @@
 
 namespace veritrack::checker {
 
-/// Of a state: turns phi + constant + per_frequency omega.
+/// Of a state: turns phi + constant + per_frequency omega. With `imaginary` the state is the real part of a
+/// vector of any length with this angle, and the state of that number, which has zeros here, its imaginary
+/// part.
 struct SteadyState {
   long turns = 0;
   Ball constant, per_frequency;
+  std::optional<std::size_t> imaginary = std::nullopt;
 };
 
 /// An input with its column B.

@@ -142,6 +142,9 @@ void add_disc(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Line
 /// Adds Re(conj(gamma) M) as a linear value; gamma = (real, imaginary).
 void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ball& real,
                 const Ball& imaginary) {
+  if (!wave.vectors.empty()) {
+    throw NotCovered("the length of a vector of states matters");
+  }
   const int s = wave.length;
   const int m = wave.turns;
   const int angle = angle_of(frame, wave);

@@ -25,8 +25,12 @@ void add_wave(Waves& sum, Wave wave, std::array<std::int64_t, 2> gamma) {
   if (first == 0) {
     gamma[1] = 0;  // M is real
   }
+  std::erase_if(wave.vectors, [](const auto& vector) { return vector.second == 0; });
   bool is_large = std::abs(wave.length) > kLargestPower || wave.noise > kLargestPower ||
                   std::abs(wave.turns) > kLargestPower;
+  for (const auto& vector : wave.vectors) {
+    is_large = is_large || std::abs(vector.second) > kLargestPower;
+  }
   for (const auto& angle : wave.angles) {
     is_large = is_large || std::abs(angle.second) > kLargestPower;
   }
@@ -53,6 +57,11 @@ Wave product_of(const Wave& x, const Wave& y, int sign) {
     angles[angle] += sign * times;
   }
   result.angles.assign(angles.begin(), angles.end());
+  std::map<int, int> vectors(x.vectors.begin(), x.vectors.end());
+  for (const auto& [vector, power] : y.vectors) {
+    vectors[vector] += power;
+  }
+  result.vectors.assign(vectors.begin(), vectors.end());
   return result;
 }
 
@@ -67,6 +76,9 @@ std::string name_of(const Wave& wave) {
   name += ")";
   for (const auto& [angle, times] : wave.angles) {
     name += " " + std::to_string(times) + "*" + std::to_string(angle);
+  }
+  for (const auto& [vector, power] : wave.vectors) {
+    name += " |" + std::to_string(vector) + "|^" + std::to_string(power);
   }
   return name;
 }
@@ -96,6 +108,12 @@ Waves constant_wave(const ConstantFactors& constant) {
   Waves result;
   add_wave(result, Wave{constant.named, 0, 0, {}}, {constant.exact, 0});
   return result;
+}
+
+Waves vector_waves(std::size_t state, int angle, int part) {
+  const Wave wave{{}, 0, 0, {{angle, 1}}, 0, {{static_cast<int>(state), 1}}};
+  return {{wave, part == 0 ? std::array<std::int64_t, 2>{kExactUnit, 0}
+                           : std::array<std::int64_t, 2>{0, kExactUnit}}};
 }
 
 Waves sum(const Waves& x, const Waves& y) {

@@ -18,6 +18,7 @@ namespace veritrack::checker {
 
 /// |y|^length e^(j (turns arg y + sum of times L)), times named constants. In one channel
 /// v^noise A^length e^(j (turns phi' + sum of times L)), with the noise v and the phase phi' of the sample.
+/// Times powers of the lengths of vectors of states, which are positive and not known.
 struct Wave {
   std::vector<int> constants;  ///< in order
   int length = 0;
@@ -25,6 +26,7 @@ struct Wave {
   std::vector<std::pair<int, int>>
       angles;     ///< the numbers of the values L, in order, and times that are not 0
   int noise = 0;  ///< in one channel
+  std::vector<std::pair<int, int>> vectors = {};  ///< real parts, in order, and powers that are not 0
   // clang-tidy 14 takes the 0 of a comparison for a null pointer.
   auto operator<=>(const Wave&) const = default;  // NOLINT(modernize-use-nullptr)
 };
@@ -41,6 +43,8 @@ Waves sample_of_one_channel();
 Waves cosine_wave(int value);
 Waves sine_wave(int value);
 Waves constant_wave(const ConstantFactors& constant);
+/// The real (0) or the imaginary (1) part of the vector whose real part is this state, at this angle.
+Waves vector_waves(std::size_t state, int angle, int part);
 
 Waves sum(const Waves& x, const Waves& y);
 Waves negated(const Waves& x);

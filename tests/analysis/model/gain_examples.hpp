@@ -63,6 +63,31 @@ inline ExampleTracker two_channel_loop(double kp, double ki, Detector detector) 
   return example;
 }
 
+/// The turn from the last pair of samples to this one, smoothed. States p1, p2 (the last samples) and w;
+/// w' = w + gain (atan2(y2 p1 - y1 p2, y1 p1 + y2 p2) - w). Both samples are kept times `kept`.
+inline ExampleTracker turn_between_samples(double gain, double kept = 1.0) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 2;
+  r.states = 3;
+  r.samples = 2;
+  r.is_angle = {false, false, false};
+  StraightLineProgram step(7);
+  const int g = 0, k = 1, p1 = 2, p2 = 3, w = 4, y1 = 5, y2 = 6;
+  const auto product = [&](int a, int b) { return step.append(Operation::multiply, a, b); };
+  const int cross = step.append(Operation::subtract, product(y2, p1), product(y1, p2));
+  const int dot = step.append(Operation::add, product(y1, p1), product(y2, p2));
+  const int e = step.append(Operation::subtract, step.append(Operation::atan2, cross, dot), w);
+  step.add_result(product(k, y1));
+  step.add_result(product(k, y2));
+  step.add_result(step.append(Operation::add, w, product(g, e)));
+  r.step = std::move(step);
+  r.frequency = frequency_of_state(2, 3, 2);
+  example.constants = {gain, kept};
+  example.start = [kept](double omega) { return std::vector<double>{kept, 0.0, omega}; };
+  return example;
+}
+
 /// The loop as the verification sees it, on a tone of two channels.
 struct TwoChannelExample {
   ExampleTracker tracker;

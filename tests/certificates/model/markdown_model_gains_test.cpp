@@ -54,5 +54,18 @@ TEST_CASE("an unstable loop is refuted, with what would make it stable") {
   }
 }
 
+TEST_CASE(
+    "two states of which the direction alone matters: the document says so, and an attack reaches the "
+    "bound") {
+  const Certificate certificate = test::turn_certificate("0.2");
+  const std::string text = model_sections(certificate, {});
+  CHECK(text.find("| `p` | `R cos(phi)` |") != std::string::npos);
+  CHECK(text.find("| `r` | `R sin(phi)` |") != std::string::npos);
+  CHECK(text.find("of `p` and `r` the step takes the direction alone") != std::string::npos);
+  CHECK(text.find(": 1.00 of the certified bound in the long run") != std::string::npos);
+  const std::string unstable = model_sections(test::turn_certificate("2.5"), {});
+  CHECK(unstable.find("| `g` | 2.5 | below 2 |") != std::string::npos);
+}
+
 }  // namespace
 }  // namespace veritrack::certificates

@@ -86,4 +86,30 @@ frequency_error_below = 0.01
   return certificates::certify(loop_design(text), "loop.toml", text, {}, certificates::Extent::everything);
 }
 
+/// The turn from the last pair of samples to this one, smoothed by a gain g.
+inline certificates::Certificate turn_certificate(const std::string& gain) {
+  const std::string text = R"(name = "a turn"
+tracker = "model"
+
+[model]
+samples = ['i', 'q']
+parameters = { g = )" + gain +
+                           R"( }
+states = ['p', 'r', 'w']
+step = '''
+w' = w + g*(atan2(q*p - i*r, i*p + q*r) - w)
+p' = i
+r' = q
+'''
+frequency = 'w'
+start = { p = 'A', r = 0, w = 'omega' }
+
+[assume]
+amplitude = 1
+frequency = [-0.5, 0.5]
+noise = 0.1
+)";
+  return certificates::certify(loop_design(text), "turn.toml", text, {}, certificates::Extent::everything);
+}
+
 }  // namespace veritrack::test

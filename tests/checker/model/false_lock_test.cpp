@@ -158,5 +158,11 @@ TEST_CASE("the program finds no larger distance than the checker does") {
   }
 }
 
+TEST_CASE("with two channels a signal moves on at every phase, however wide the range of its amplitude") {
+  const ModelRecursion recursion(read_json(loop_of("theta' = theta + w\nw' = w + k*y1*sin(theta)").dump()));
+  const Ball wide = Ball::hull(Ball(0.5), Ball(4.0));
+  CHECK(half_distance_to_false_lock({&recursion, wide, true}, Ball(0.01), Ball(0.02)).near() > 3.0);
+}
+
 }  // namespace
 }  // namespace veritrack::checker

@@ -264,5 +264,36 @@ TEST_CASE("constants with the same enclosure are not the same number") {
   CHECK_NOTHROW((void)frame.line_of(k * (y2 * cos(theta)) - k * (y1 * sin(theta))));
 }
 
+TEST_CASE("of a vector of states the angle is known, up to whole turns, and its length nowhere") {
+  const rigor::UpwardRounding upward;
+  Frame frame(Interval(kAmplitude), Interval::from_bounds(0.2, 0.3), 3);
+  const auto [p, r] = frame.vector(1, 1, 0.5, 0.0);
+  const FrameValue y1 = frame.sample(0);
+  const FrameValue y2 = frame.sample(1);
+  // arg(y conj p) = omega - 0.5 - xi + the angle of noise
+  const FrameLine turn = atan2(y2 * p - y1 * r, y1 * p + y2 * r).line();
+  CHECK(turn.turns == 0);
+  CHECK_FALSE(turn.is_modular);
+  CHECK(turn.constant == Interval(-0.5));
+  CHECK(turn.per_frequency == Interval(1.0));
+  CHECK(turn.states[1] == Interval(-1.0));
+  CHECK(turn.inputs.size() == 1);
+  // The direction that follows: the samples, times any length.
+  const FrameLine direction = frame.direction_of(FrameValue(-2) * y2, FrameValue(2) * y1);
+  CHECK(direction.turns == 1);
+  CHECK(direction.is_modular);
+  CHECK(rigor::contains(direction.constant, 0.5 * std::numbers::pi));
+  CHECK(direction.per_frequency == Interval(1.0));
+  CHECK(direction.states.empty());
+  for (const auto& refused : {std::pair(p, r), std::pair(y1 * p, y2 * p), std::pair(y1, y1),
+                              std::pair(y1, FrameValue(2) * y2), std::pair(y1 + p, y2 + r)}) {
+    CHECK_THROWS_AS((void)frame.direction_of(refused.first, refused.second), NoFrame);
+  }
+  CHECK_THROWS_AS((void)frame.line_of(y1 * p + y2 * r), NoFrame);
+  CHECK_THROWS_AS((void)frame.line_of(p * p + r * r), NoFrame);
+  CHECK_THROWS_AS((void)(y1 / sqrt(p * p + r * r)), NoFrame);
+  CHECK_THROWS_AS((void)asin(p), NoFrame);
+}
+
 }  // namespace
 }  // namespace veritrack::model

@@ -7,6 +7,7 @@
 
 #include "analysis/model/gain/frame_value.hpp"
 #include "analysis/model/gain/gain_attack.hpp"
+#include "analysis/model/gain/steady_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/model/gain_examples.hpp"
 #include "tests/support/random.hpp"

@@ -105,6 +105,22 @@ TEST_CASE("a start near an unstable steady state finds the stable one, half a tu
   }
 }
 
+TEST_CASE("two states of which the direction alone matters are one angle, unless a start is off in them") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::turn_between_samples(0.2));
+  SetQuestion question = question_of(loop);
+  const auto sets = prove_by_gains(question);
+  REQUIRE(sets.has_value());
+  CHECK(sets->gains->steady[0].imaginary == 1);
+  CHECK(sets->assumed->is_proved());
+  CHECK(sets->noise->tubes.noise > 0.8);  // two angles of noise and 1 rad/sample are below half a turn
+  question.assumes_start = true;
+  question.deviations = {Interval(0.0), Interval(0.0), Interval(0.1)};
+  CHECK(prove_by_gains(question).has_value());
+  question.deviations = {Interval(0.0), Interval(0.01), Interval(0.0)};
+  CHECK_FALSE(prove_by_gains(question).has_value());
+}
+
 TEST_CASE("other questions are left to tubes") {
   const rigor::UpwardRounding upward;
   const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));

@@ -344,5 +344,86 @@ TEST_CASE("remainders are about what is computed before") {
   }
 }
 
+/// The turn from the last pair of samples to this one, smoothed; what is kept of the samples by these lines.
+Loop turn_loop(const std::string& kept = "p' = i\nr' = q") {
+  Loop loop{{"p", "r", "w"},
+            {{"g", "0.2"}},
+            "e = atan2(q*p - i*r, i*p + q*r) - w\nw' = w + g*e\n" + kept + "\n",
+            "w",
+            {{1, 0.0, 0.0, 1}, {0, 0.0, 0.0}, {0, 0.0, 1.0}}};
+  loop.angles = {};
+  return loop;
+}
+
+TEST_CASE("of a vector of states the direction alone is in the network, whatever its length") {
+  std::mt19937 random(11);
+  const auto step = [&](const State& x, std::complex<double> y) {
+    const double length = std::exp(std::uniform_real_distribution<>(-6.0, 6.0)(random));
+    const double e = std::arg(y * std::conj(std::polar(length, x[0]))) - x[2];
+    return State{std::arg(y), 0.0, x[2] + 0.2 * e};
+  };
+  CHECK(covers(turn_loop(), step, 0.4, {0.5, 0.0, 0.1}));
+  CHECK(covers(turn_loop("n = sqrt(i^2 + q^2)\np' = 3*i/n\nr' = 3*q/n"), step, 0.4, {0.5, 0.0, 0.1}));
+  Loop off = turn_loop("p' = -q\nr' = i");  // a quarter of a turn further
+  off.steady[0].constant = pi() * half;
+  CHECK(off.is_covered());
+  const GainNetwork network = turn_loop().network();
+  for (std::size_t j = 0; j < 3; ++j) {
+    CHECK(certainly_equal(network.matrix[0][j], zero));
+    CHECK(certainly_equal(network.matrix[1][j], zero));
+    CHECK(certainly_equal(network.matrix[2][1], zero));
+  }
+  CHECK(network.is_at_rest);
+}
+
+TEST_CASE("a vector that matters by its length, or does not follow the samples, is not covered") {
+  CHECK(turn_loop().is_covered());
+  CHECK_FALSE(turn_loop("p' = p\nr' = r").is_covered());
+  CHECK_FALSE(turn_loop("p' = i + p/2\nr' = q + r/2").is_covered());
+  CHECK_FALSE(turn_loop("p' = i\nr' = 2*q").is_covered());
+  CHECK_FALSE(turn_loop("p' = q\nr' = i").is_covered());  // turns the other way
+  CHECK_FALSE(turn_loop("p' = 1\nr' = 0").is_covered());  // does not turn
+  CHECK_FALSE(turn_loop("m = sqrt(p^2 + r^2)\np' = m*i\nr' = m*q").is_covered());
+  Loop product = turn_loop();
+  product.step = "w' = w + g*(q*p - i*r)\np' = i\nr' = q\n";
+  CHECK_FALSE(product.is_covered());
+  Loop read = turn_loop();
+  read.frequency = "w + g*p";
+  CHECK_FALSE(read.is_covered());
+}
+
+TEST_CASE("the parts of a vector are two states of one vector, at the start in their steady state") {
+  const auto with = [](const auto& change) {
+    Loop loop = turn_loop();
+    change(loop);
+    return loop.is_covered();
+  };
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[0].imaginary = 0; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[0].imaginary = 3; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[0].imaginary = 2; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[0].imaginary = std::nullopt; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[1].imaginary = 0; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[1].constant = one; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[1].per_frequency = one; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.steady[1].turns = 1; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.angles = {"p"}; }));
+  CHECK_FALSE(with([](Loop& loop) { loop.angles = {"r"}; }));
+  const auto from = [](const Ball& p, const Ball& r, const Ball& w) {
+    const Loop loop = turn_loop();
+    ModelDesign design = loop.design();
+    design.start_within = {p, r, w};
+    const ModelRecursion recursion(read_json(loop.model().dump()));
+    try {
+      (void)gain_network(recursion, design, loop.steady);
+      return true;
+    } catch (const NotCovered&) {
+      return false;
+    }
+  };
+  CHECK(from(zero, zero, one));
+  CHECK_FALSE(from(half, zero, one));
+  CHECK_FALSE(from(zero, half, zero));
+}
+
 }  // namespace
 }  // namespace veritrack::checker

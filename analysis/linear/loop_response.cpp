@@ -55,32 +55,4 @@ double noise_gain(const LinearLoop& loop, double frequency) {
   return loop.tone_share * (loop.estimate.cast<std::complex<double>>() * response).norm();
 }
 
-GainMargin gain_margin(const Eigen::MatrixXd& a, const Eigen::VectorXd& effect,
-                       const Eigen::RowVectorXd& detected) {
-  constexpr double kStep = 1.02;
-  constexpr double kMost = 1e3;
-  constexpr int kHalvings = 40;
-  const auto is_stable = [&](double factor) {
-    const Eigen::MatrixXd changed = a + (factor - 1.0) * effect * detected;
-    return rigor::spectral_radius(changed) < 1.0;
-  };
-  // The first factor on the way that is not stable.
-  const auto limit = [&](double step) {
-    double stable = 1.0;
-    while (stable < kMost && stable > 1.0 / kMost && is_stable(stable * step)) {
-      stable *= step;
-    }
-    if (!(stable < kMost && stable > 1.0 / kMost)) {
-      return step > 1.0 ? INFINITY : 0.0;
-    }
-    double unstable = stable * step;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (stable + unstable);
-      (is_stable(middle) ? stable : unstable) = middle;
-    }
-    return stable;
-  };
-  return {limit(1.0 / kStep), limit(kStep)};
-}
-
 }  // namespace veritrack::linear

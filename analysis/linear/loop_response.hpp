@@ -39,13 +39,4 @@ struct LoopMode {
 /// |y| for noise of amplitude 1 that turns by `frequency` rad/sample.
 [[nodiscard]] double noise_gain(const LinearLoop& loop, double frequency);
 
-/// Factors of one gain: stable from `low` to `high`; 0 and infinity where there is no limit within 1e3.
-struct GainMargin {
-  double low = 0.0;
-  double high = 0.0;
-};
-/// Of the gain of a detector d = c x whose effect is b d: A + (factor - 1) b c.
-[[nodiscard]] GainMargin gain_margin(const Eigen::MatrixXd& a, const Eigen::VectorXd& effect,
-                                     const Eigen::RowVectorXd& detected);
-
 }  // namespace veritrack::linear

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear/loop_margins.hpp"
 #include "analysis/linear/mode_damping.hpp"
 #include "analysis/linear/stability.hpp"
 #include "analysis/model/gain/linear_loop.hpp"
@@ -65,19 +66,7 @@ Interval gain_of(const Interval& decibels) {
 /// In dB; that of a factor of 1000 where there is no limit.
 double proposed_margin(const linear::DetectorLoop& loop) {
   constexpr double kNoLimit = 60.0;
-  const auto n = static_cast<Eigen::Index>(loop.a.size());
-  Eigen::MatrixXd a(n, n);
-  Eigen::VectorXd effect(n);
-  Eigen::RowVectorXd phase(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    effect(i) = -rigor::midpoint(loop.effect[row]);
-    phase(i) = rigor::midpoint(loop.phase[row]);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      a(i, j) = rigor::midpoint(loop.a[row][static_cast<std::size_t>(j)]);
-    }
-  }
-  const double high = linear::gain_margin(a, effect, phase).high;
+  const double high = linear::gain_margin(loop).high;
   return std::isfinite(high) ? 20.0 * std::log10(high) : kNoLimit;
 }
 

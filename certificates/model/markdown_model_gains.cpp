@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
+#include "analysis/linear/loop_margins.hpp"
 #include "analysis/model/gain/gain_attack.hpp"
 #include "analysis/model/gain/linear_loop.hpp"
+#include "analysis/model/gain/loop_detector.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/loop_stability.hpp"
@@ -115,6 +118,25 @@ std::string duration(double samples, const std::optional<Number>& rate) {
          (seconds < 1.0 ? fmt::format(" ({:.3g} ms)", 1e3 * seconds) : fmt::format(" ({:.3g} s)", seconds));
 }
 
+/// Of the detector's gain, of the phase and of a delay.
+template <typename InUnits>
+void add_margins(const linear::DetectorLoop& loop, const InUnits& in_units, const std::optional<Number>& rate,
+                 std::vector<std::vector<std::string>>& rows) {
+  const linear::GainMargin margin = linear::gain_margin(loop);
+  const std::string low = margin.low > 0.0 ? fmt::format("from {:.3g}", margin.low) : std::string();
+  const std::string high =
+      std::isfinite(margin.high) ? fmt::format("up to {:.3g}", margin.high) : std::string();
+  rows.push_back({"the detector's gain times this factor is stable",
+                  low + (low.empty() || high.empty() ? "" : " ") + high +
+                      (low.empty() && high.empty() ? "any from 0.001 to 1000" : "")});
+  if (const auto delay = linear::delay_margin(loop)) {
+    rows.push_back(
+        {fmt::format("phase margin, where the open loop has the gain 1: at {}", in_units(delay->crossover)),
+         fmt::format("{:.3g}°", delay->phase * 180.0 / std::numbers::pi)});
+    rows.push_back({"a further delay in the loop is stable below", duration(delay->samples, rate)});
+  }
+}
+
 /// Modes, the response to a step, noise and margins of the linear loop.
 std::string linear_table(const model::GainProof& proof, const ModelAssumptions& assume,
                          const FrequencyUnits& units) {
@@ -143,13 +165,8 @@ std::string linear_table(const model::GainProof& proof, const ModelAssumptions& 
                   duration(static_cast<double>(settled_from(share)), assume.sample_rate)});
   rows.push_back({"white noise of deviation 1 in each channel: deviation of the frequency",
                   in_units(linear::noise_deviation(loop, proof.gains->samples()))});
-  if (const auto margin = model::detector_margin(network, assume.amplitude[0].nearest)) {
-    const std::string low = margin->low > 0.0 ? fmt::format("from {:.3g}", margin->low) : std::string();
-    const std::string high =
-        std::isfinite(margin->high) ? fmt::format("up to {:.3g}", margin->high) : std::string();
-    rows.push_back({"the detector's gain times this factor is stable",
-                    low + (low.empty() || high.empty() ? "" : " ") + high +
-                        (low.empty() && high.empty() ? "any from 0.001 to 1000" : "")});
+  if (const auto detector = model::detector_of(network, proof.steady).loop) {
+    add_margins(*detector, in_units, assume.sample_rate, rows);
   }
   return "*Computed, not proved:* the linear loop.\n\n" + markdown::table({"Property", "Value"}, rows) + "\n";
 }

@@ -70,19 +70,4 @@ linear::LinearLoop linear_loop(const LoopNetwork& network) {
   return loop;
 }
 
-std::optional<linear::GainMargin> detector_margin(const LoopNetwork& network, double amplitude) {
-  std::vector<Eigen::VectorXd> columns;
-  for (std::size_t l = 0; l < network.inputs.size(); ++l) {
-    for (Eigen::VectorXd& column : noise_columns(network, l)) {
-      columns.push_back(std::move(column));
-    }
-  }
-  if (columns.size() != 1 || network.forms.size() != 2) {
-    return std::nullopt;
-  }
-  // Noise across the signal turns it by its size over the amplitude, as an error of the phase does.
-  return linear::gain_margin(matrix_of(network), amplitude * columns.front(),
-                             middle_of(network.forms.front()).transpose());
-}
-
 }  // namespace veritrack::model

@@ -1,5 +1,7 @@
 #include "analysis/model/gain/loop_detector.hpp"
 
+#include <algorithm>
+
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::model {
@@ -53,6 +55,12 @@ Row effect_of_phase(const LoopNetwork& network, const std::vector<SteadyValue>& 
 }  // namespace
 
 LoopDetector detector_of(const LoopNetwork& network, const std::vector<SteadyValue>& steady) {
+  if (std::any_of(steady.begin(), steady.end(), [](const SteadyValue& each) { return each.imaginary; })) {
+    return {
+        std::nullopt,
+        "the step compares the samples with samples that it has kept: no gain of a detector alone decides "
+        "how the loop answers"};
+  }
   std::optional<Row> compared;
   for (const std::size_t angle : network.angle_forms) {
     const Row& form = network.forms[angle];

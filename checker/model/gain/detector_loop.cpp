@@ -164,6 +164,9 @@ bool no_root_on_unit_circle(const std::vector<Ball>& first, const std::vector<Ba
 }  // namespace
 
 std::optional<DetectorLoop> detector_loop(const GainNetwork& network) {
+  if (network.has_vector) {
+    return std::nullopt;  // the gain of a detector is not in what is kept of the samples
+  }
   const std::size_t n = network.states();
   std::optional<std::vector<Ball>> compared;
   for (const std::size_t angle : network.angle_forms) {

@@ -16,7 +16,7 @@ struct DetectorLoop {
   std::vector<Ball> compared;  ///< c
 };
 
-/// Nothing where no angle, or more than one, depends on the phase of the samples.
+/// Nothing where no angle, or more than one, depends on the phase of the samples, or states keep samples.
 std::optional<DetectorLoop> detector_loop(const GainNetwork& network);
 
 /// pi times the sum of squares of c A^k b, rad/sample; everything where that is not known.

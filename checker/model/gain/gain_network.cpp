@@ -231,6 +231,7 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
   for (const SteadyState& each : steady) {
     slew.column.push_back({-each.per_frequency, zero});
     network.turns.push_back(each.turns);
+    network.has_vector = network.has_vector || each.imaginary;
   }
   slew.size = [](const Ball& /*noise*/, const Ball& most) { return most; };
   network.inputs.push_back(std::move(slew));

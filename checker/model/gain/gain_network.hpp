@@ -74,6 +74,7 @@ struct GainNetwork {
   Ball bias;                             ///< over the band
   /// What is listed is a steady state up to rounding, and no limit is crossed there.
   bool is_at_rest = true;
+  bool has_vector = false;      ///< two states are one angle: samples that are kept
   std::vector<long> turns;      ///< of the states in the steady state, of the phase
   std::vector<Ball> frequency;  ///< the row of the frequency
   Ball least_amplitude;         ///< noise must be below it

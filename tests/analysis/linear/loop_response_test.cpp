@@ -48,14 +48,5 @@ TEST_CASE("a pair of modes: damping and frequency of the continuous one") {
   CHECK(modes[0].time_constant == doctest::Approx(1.0 / (zeta * omega)));
 }
 
-TEST_CASE("margins of a loop of first order: 1 - k g is inside the circle for 0 < k < 2/g") {
-  const double gain = 0.25;
-  const Eigen::MatrixXd a = Eigen::MatrixXd::Constant(1, 1, 1.0 - gain);
-  const GainMargin margin =
-      gain_margin(a, Eigen::VectorXd::Constant(1, gain), Eigen::RowVectorXd::Constant(1, -1.0));
-  CHECK(margin.low == 0.0);
-  CHECK(margin.high == doctest::Approx(2.0 / gain).epsilon(1e-6));
-}
-
 }  // namespace
 }  // namespace veritrack::linear

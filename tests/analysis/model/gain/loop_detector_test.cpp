@@ -44,6 +44,15 @@ TEST_CASE("the detector of a loop compares the phase of the samples with a state
   }
 }
 
+TEST_CASE("a loop that keeps samples has no detector of its phase alone") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.1, 0.004, Detector::sine));
+  std::vector<SteadyValue> steady = kSteadyOfLoop;
+  CHECK(detector_of(network_for(loop, 1.0), steady).loop);
+  steady[0].imaginary = 1;
+  CHECK_FALSE(detector_of(network_for(loop, 1.0), steady).loop);
+}
+
 TEST_CASE("a loop with other forms of the phase, or with none, has no one detector") {
   const rigor::UpwardRounding upward;
   const test::TwoChannelExample loop(test::two_channel_loop(0.1, 0.004, Detector::sine));

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "checker/model/gain/detector_loop.hpp"
 #include "tests/checker/model/gain/gain_loops.hpp"
 
 namespace veritrack::checker {
@@ -374,6 +375,7 @@ TEST_CASE("of a vector of states the direction alone is in the network, whatever
     CHECK(certainly_equal(network.matrix[2][1], zero));
   }
   CHECK(network.is_at_rest);
+  CHECK_FALSE(detector_loop(network).has_value());  // its gain is not that of an angle that is kept
 }
 
 TEST_CASE("a vector that matters by its length, or does not follow the samples, is not covered") {

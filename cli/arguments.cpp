@@ -40,7 +40,8 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
     {"map",
      "  veritrack map my-design.toml\n"
      "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise --html\n"
-     "  veritrack map my-loop.toml --timeout 60"},
+     "  veritrack map my-loop.toml --timeout 60\n"
+     "  veritrack map my-loop.toml --over kp=1000:4000"},
     {"show",
      "  veritrack show my-loop.toml\n"
      "  veritrack show my-loop.toml --language c > tracker.c"},
@@ -154,7 +155,8 @@ void add_diff(CLI::App& app, Arguments& into) {
 }
 
 void add_map(CLI::App& app, Arguments& into) {
-  CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
+  CLI::App* map =
+      app.add_subcommand("map", "draw the proved region of attraction: which starts lock; or a root locus");
   map->add_option(
          "DESIGN", into.map.design,
          "design file (TOML), tracker quadrature-ekf without leak, or model with at most four states")
@@ -179,6 +181,10 @@ void add_map(CLI::App& app, Arguments& into) {
   map->add_option("--y-range", into.map.request.y_range, "model: likewise")->check(CLI::Range(1e-300, 1e300));
   map->add_option("--cells", into.map.request.cells, "model: cells in each direction (default 21)")
       ->check(CLI::Range(1, 200));
+  map->add_option(
+         "--over", into.map.over,
+         "model: the modes of its errors over a parameter, NAME=LOW:HIGH, in place of a map: a root locus")
+      ->check(is_free_parameter);
   map->add_option("--timeout", into.map.seconds,
                   "stop after so many seconds and write what is proved by then; so does Ctrl-C")
       ->check(is_seconds);

@@ -147,6 +147,9 @@ ExitStatus run_map(const MapOptions& options) {
   const reports::MapResult result = [&] {
     const Interruption interruption;
     reports::MapRequest request = options.request;
+    if (!options.over.empty()) {
+      request.over = certificates::free_parameter(options.over).value();
+    }
     request.deadline = (options.seconds > 0.0 ? search::Deadline(options.seconds) : search::Deadline())
                            .or_when(Interruption::flag());
     const ProgressLine line(options.quiet, "mapping");

@@ -48,6 +48,7 @@ struct MapOptions {
   std::string design;
   std::string directory;
   reports::MapRequest request;
+  std::string over;      ///< NAME=LOW:HIGH, or empty
   double seconds = 0.0;  ///< after which the results so far are written; 0: never
   bool quiet = false;    ///< no progress on standard error
 };

@@ -42,6 +42,7 @@ std::vector<std::string_view> given_options(const MapRequest& request) {
   add(request.x_range.has_value(), "--x-range");
   add(request.y_range.has_value(), "--y-range");
   add(request.cells.has_value(), "--cells");
+  add(request.over.has_value(), "--over");
   return given;
 }
 

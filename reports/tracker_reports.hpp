@@ -10,21 +10,23 @@
 
 #include "analysis/search/deadline.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/document/tuning.hpp"
 #include "reports/figures.hpp"
 
 namespace veritrack::reports {
 
 /// The contents of a map, around the exact start; the kind chooses values that are not given.
 struct MapRequest {
-  std::optional<double> frequency_error;   ///< up to, rad/sample
-  std::optional<double> phase_error;       ///< up to, rad
-  std::optional<std::string> at;           ///< frequency of the signal, rad/sample: a decimal
-  std::optional<std::string> x, y;         ///< states that deviate at the start
-  std::optional<double> x_range, y_range;  ///< by how much at most
-  std::optional<int> cells;                ///< in each direction
-  bool with_noise = false;                 ///< with the noise (and slew) of [assume]; otherwise without
-  search::Deadline deadline = {};          ///< cells not proved by then stay open
-  bool html = false;                       ///< map.html, too
+  std::optional<double> frequency_error;            ///< up to, rad/sample
+  std::optional<double> phase_error;                ///< up to, rad
+  std::optional<std::string> at;                    ///< frequency of the signal, rad/sample: a decimal
+  std::optional<std::string> x, y;                  ///< states that deviate at the start
+  std::optional<double> x_range, y_range;           ///< by how much at most
+  std::optional<int> cells;                         ///< in each direction
+  std::optional<certificates::FreeParameter> over;  ///< the modes over this parameter, in place of a map
+  bool with_noise = false;         ///< with the noise (and slew) of [assume]; otherwise without
+  search::Deadline deadline = {};  ///< cells not proved by then stay open
+  bool html = false;               ///< map.html, too
 };
 
 /// The files of a map, or why there are none.

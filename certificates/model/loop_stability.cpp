@@ -6,45 +6,12 @@
 #include <cmath>
 #include <optional>
 
-#include "analysis/model/gain/steady_proposal.hpp"
-#include "analysis/rigor/rounding.hpp"
-#include "analysis/rigor/spectral_radius.hpp"
-#include "certificates/model/model_sets.hpp"
+#include "certificates/model/changed_loop.hpp"
+#include "certificates/model/model.hpp"
 
 namespace veritrack::certificates {
 
 namespace {
-
-/// The largest multiplier of the linear recursion, with another value of a parameter; empty where it has no
-/// steady state.
-std::optional<double> radius_with(ModelTables tables, const std::optional<model::ProposedVector>& vector,
-                                  std::size_t parameter, double value) {
-  tables.model.parameters[parameter].formula.text = fmt::format("{:.17g}", value);
-  const Model model = make_model(tables.model, tables.assume.signal);
-  const model::TrackedTone tone = proposed_tone(model, tables.assume);
-  const model::TrackerModel tracker = proved_model(model, tables.assume);
-  const rigor::Interval band = band_of(tables.assume);
-  const double omega = rigor::midpoint(band);
-  const auto steady = model::proposed_steady_state(tracker, tone.start, omega, omega + 1e-3, vector);
-  if (!steady) {
-    return std::nullopt;
-  }
-  const Eigen::MatrixXd slope = model::step_residual(tracker, *steady, omega).slope;
-  const rigor::NearestRounding nearest;
-  return rigor::spectral_radius(slope);
-}
-
-/// The loop with other values of a parameter.
-struct ChangedLoop {
-  const ModelTables* tables;
-  std::optional<model::ProposedVector> vector;
-  std::size_t parameter = 0;
-
-  [[nodiscard]] bool is_stable(double value) const {
-    const auto radius = radius_with(*tables, vector, parameter, value);
-    return radius && *radius < 1.0;
-  }
-};
 
 /// Whether it only converts a unit of the frequency, such as the time between samples: its sign is right.
 bool is_of_unit(const Model& model, std::size_t parameter) {
@@ -74,7 +41,7 @@ std::vector<StabilityLimit> stability_limits(const ModelTables& tables,
   std::vector<StabilityLimit> limits;
   const Model model = make_model(tables.model, tables.assume.signal);
   for (std::size_t i = 0; i < tables.model.parameters.size(); ++i) {
-    const ChangedLoop loop{&tables, vector, i};
+    const ChangedLoop loop{&tables, i, vector};
     const double value = model.constants[i].nearest;
     const std::string& name = tables.model.parameters[i].name.text;
     if (value == 0.0) {

@@ -83,8 +83,10 @@ std::string steady_state_table(const model::GainProof& proof, const Model& model
     texts[vector->real] = "R cos(" + angle + ")";
     texts[vector->imaginary] = "R sin(" + angle + ")";
     note = fmt::format(
-        "\nR is any length above 0: of `{}` and `{}` the step takes the direction alone, so both "
-        "are one angle here. An error of their length is gone after a sample.\n",
+        "\nR is any length above 0: of `{0}` and `{1}` the step takes the direction alone, so both "
+        "are one angle here. An error of their length is gone after a sample. To start in the steady state, "
+        "or in it but for other states, they point in this direction. A start with both at 0 has no "
+        "direction, and is not covered.\n",
         model.states[vector->real], model.states[vector->imaginary]);
   }
   std::vector<std::vector<std::string>> rows;

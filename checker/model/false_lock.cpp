@@ -15,22 +15,23 @@ long capped(long value) {
   return std::min(value, kMostOfATurn);
 }
 
+/// Whether a sample certainly changes at each of these phases; halves are looked at one by one where the
+/// whole is too wide.
+bool moves_on(const TrackedModel& model, const Ball& from, const Ball& to, int halvings) {
+  const Jet<Ball> phase = Jet<Ball>::variable(Ball::hull(from, to), 0, 1);
+  const std::vector<Jet<Ball>> samples = model.recursion->signal(Jet<Ball>(model.amplitude), phase);
+  const bool moves = std::any_of(samples.begin(), samples.end(), [](const Jet<Ball>& sample) {
+    return certainly_positive(abs(sample.slope(0)));
+  });
+  const Ball middle = ((from + to) * half).middle();
+  return moves || (halvings > 0 && moves_on(model, from, middle, halvings - 1) &&
+                   moves_on(model, middle, to, halvings - 1));
+}
+
 /// |Y'| > 0 at all phases: a signal that runs backwards has the same samples only if it turns back somewhere.
 bool moves_on(const TrackedModel& model) {
-  constexpr int kParts = 256;
-  const Jet<Ball> amplitude(model.amplitude);
-  for (int k = 0; k < kParts; ++k) {
-    const Ball phase = Ball::hull(Ball(k), Ball(k + 1)) * (two * pi() / Ball(kParts));
-    const std::vector<Jet<Ball>> samples =
-        model.recursion->signal(amplitude, Jet<Ball>::variable(phase, 0, 1));
-    const bool moves = std::any_of(samples.begin(), samples.end(), [](const Jet<Ball>& sample) {
-      return certainly_positive(abs(sample.slope(0)));
-    });
-    if (!moves) {
-      return false;
-    }
-  }
-  return true;
+  constexpr int kHalvings = 16;
+  return moves_on(model, zero, (two * pi()).upper(), kHalvings);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "certificates/model/model_json.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "reports/model/map_figure.hpp"
+#include "reports/model/root_locus.hpp"
 #include "reports/page/renderings.hpp"
 
 namespace veritrack::reports {
@@ -206,6 +207,9 @@ std::string model_map_json(const certificates::Design& design, const ModelMap& m
 MapResult write_model_map(const certificates::Design& design, const MapRequest& request,
                           const std::filesystem::path& directory,
                           const certificates::CertifyProgress& progress) {
+  if (request.over) {
+    return write_root_locus(design, request, directory);
+  }
   const certificates::ModelMapResult result =
       certificates::map_model(design,
                               {request.at, request.x, request.y, request.x_range, request.y_range,

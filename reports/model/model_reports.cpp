@@ -9,7 +9,7 @@ const TrackerReports& model_reports() {
   static const TrackerReports reports{"model",
                                       draw_model_figures,
                                       write_model_map,
-                                      {"--at", "--x", "--y", "--x-range", "--y-range", "--cells"}};
+                                      {"--over", "--at", "--x", "--y", "--x-range", "--y-range", "--cells"}};
   return reports;
 }
 

@@ -57,9 +57,12 @@ Figure response_figure(const model::GainProof& proof, const certificates::Freque
   FigureTable noise("noise", {fmt::format("distance of the noise from the signal [{}]", units.drawn_unit()),
                               fmt::format("frequency error for noise of amplitude 1, not proved [{}]",
                                           units.drawn_unit())});
+  bool passes_noise = false;  // none behind a clamp that always acts
   for (int i = 0; i <= kFrequencies; ++i) {
     const double omega = std::numbers::pi * std::pow(kLowest, 1.0 - static_cast<double>(i) / kFrequencies);
-    noise.add({units.drawn(omega), units.drawn(linear::noise_gain(loop, omega))});
+    const double gain = linear::noise_gain(loop, omega);
+    passes_noise = passes_noise || gain > 0.0;
+    noise.add({units.drawn(omega), units.drawn(gain)});
   }
   std::string script = gnuplot_style(560);
   script += step.block() + noise.block();
@@ -69,11 +72,11 @@ Figure response_figure(const model::GainProof& proof, const certificates::Freque
       "set ylabel 'share followed' offset -1.5\n"
       "plot 1 with lines lw 1 dt 3 lc rgb '#888888' notitle, "
       "$step using 1:2 with lines lw 2 lc rgb '#000000' notitle\n"
-      "set offsets 0, 0, 0, 0\nset logscale xy\nset autoscale\nset xlabel 'distance of the noise from the "
+      "set offsets 0, 0, 0, 0\nset logscale {}\nset autoscale\nset xlabel 'distance of the noise from the "
       "signal, {}'\n"
       "set ylabel 'error, {}' offset -1.5\n"
       "plot $noise using 1:2 with lines lw 2 lc rgb '#000000' notitle\nunset multiplot\n",
-      time, units.drawn_unit(), units.drawn_unit());
+      time, passes_noise ? "xy" : "x", units.drawn_unit(), units.drawn_unit());
   return {
       "response.svg",
       fmt::format(

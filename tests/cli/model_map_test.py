@@ -38,6 +38,19 @@ class ModelMap(CliTestCase):
         with open(self.folder / folder / "region.csv", newline="") as file:
             return list(csv.DictReader(file))
 
+    def test_a_root_locus_is_written(self):
+        self.write(LOOP)
+        result = self.run_here("map", "design.toml", "--over", "zeta=0.1:3", "--out", "locus")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, "locus/root-locus.md: not proved: stable for zeta from 0.1 to 3\n")
+        self.assertEqual(self.files(), [f"locus/{name}" for name in ("root-locus.csv", "root-locus.md", "root-locus.svg")])
+        xml.etree.ElementTree.parse(self.folder / "locus" / "root-locus.svg")
+        for options, words in ((("--over", "zeta"), "NAME=LOW:HIGH"), (("--over", "nothing=1:2"), "allowed: wn, zeta, ki, kp"),
+                               (("--over", "zeta=0.1:3", "--cells", "3"), "--out, --html")):
+            result = self.run_here("map", "design.toml", *options)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(words, result.stderr)
+
     def test_a_map_is_written(self):
         self.write(LOOP)
         result = self.run_here("map", "design.toml", *FEW)
@@ -106,7 +119,7 @@ class ModelMap(CliTestCase):
                 ("--x-range", "0"): "x-range",
                 ("--x-range", "nan"): "x-range",
                 ("--cells", "0"): "cells",
-                ("--phase", "1"): r"--phase cannot be used with the tracker model; allowed: --at, --x, ",
+                ("--phase", "1"): r"--phase cannot be used with the tracker model; allowed: --over, --at, --x, ",
         }.items():
             with self.subTest(options=options):
                 result = self.run_here("map", "design.toml", *options)

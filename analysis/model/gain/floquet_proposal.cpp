@@ -57,13 +57,15 @@ PhaseSeries series_of(const std::vector<Eigen::MatrixXcd>& powers, Eigen::Index 
 }  // namespace
 
 std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, FloquetGauge gauge, double low,
-                                                double high) {
+                                                double high, double largest_mean_error) {
   constexpr int kFewestHarmonics = 24;
   constexpr int kMostHarmonics = 64;
   constexpr double kNegligible = 1e-13;
   const rigor::NearestRounding nearest;
   const double middle = 0.5 * (low + high);
-  const SteadyState settled = find_steady_state(tone, middle);
+  SteadyStateSettings settings;
+  settings.largest_mean_error = largest_mean_error;
+  const SteadyState settled = find_steady_state(tone, middle, settings);
   if (settled.outcome != SteadyStateOutcome::settled) {
     return std::nullopt;
   }

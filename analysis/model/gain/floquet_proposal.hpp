@@ -1,6 +1,7 @@
 // A basis in which the errors about a steady state have constant coefficients: a proposal, in floating point.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "analysis/model/gain/floquet_modes.hpp"
@@ -9,9 +10,10 @@
 
 namespace veritrack::model {
 
-/// Over the frequencies low to high, rad/sample. Empty where there is no steady state, or no basis. Holds
-/// round-to-nearest.
+/// Over the frequencies low to high, rad/sample. Empty where there is no steady state that is right in the
+/// mean up to `largest_mean_error`, rad/sample, or no basis. Holds round-to-nearest.
 [[nodiscard]] std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, FloquetGauge gauge,
-                                                              double low, double high);
+                                                              double low, double high,
+                                                              double largest_mean_error = INFINITY);
 
 }  // namespace veritrack::model

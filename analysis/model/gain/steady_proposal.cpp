@@ -85,7 +85,10 @@ SteadyValue line_through(SteadyValue form, double low, double first, double high
   // A whole number is most often meant where it is nearly one.
   const double whole = std::round(slope);
   slope = std::fabs(slope - whole) < 1e-9 * std::max(1.0, std::fabs(slope)) ? whole : slope;
-  const double constant = first - slope * low;
+  double constant = first - slope * low;
+  if (is_angle) {
+    constant = std::remainder(constant, 2.0 * rigor::midpoint(rigor::pi()));
+  }
   const bool is_rounding =
       std::fabs(constant) < 1e-11 * std::max(size, std::fabs(slope * low)) || std::fabs(constant) < 1e-13;
   form.constant = is_rounding ? 0.0 : constant;

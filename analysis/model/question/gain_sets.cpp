@@ -121,7 +121,8 @@ class GainSets {
     }
     const auto from = [&](double error) {
       disturbance.start.assign(gains_->network().a.size(), 0.0);
-      disturbance.start[state->first] = rigor::div_up(error, state->second);
+      const double deviation = rigor::add_up(error, rigor::magnitude(gains_->network().bias));
+      disturbance.start[state->first] = rigor::div_up(deviation, state->second);
       return gains_->bounds(disturbance);
     };
     set.reach = largest_with(rigor::pi().lower(), [&](double error) { return is_lock(from(error)); });
@@ -236,11 +237,13 @@ struct Found {
   LoopNetwork network;
 };
 
-/// The first steady state about which errors decay, or else the first of all. Throws NoFrame.
+/// The first steady state about which errors decay, or else the first of all; none is as far from the true
+/// frequency as a false lock may be. Throws NoFrame.
 std::optional<Found> find_loop(const SetQuestion& question, const std::optional<ProposedVector>& vector) {
   const Interval& band = question.whole_band;
   // At one frequency, a little more shows how the steady state depends on it.
   const double width = std::max(band.upper() - band.lower(), 1e-3);
+  const double half_distance = half_distance_to_false_lock(question.tracker, band);
   std::optional<Found> first;
   std::string objection;
   for (const StartState& start : places_to_look(question)) {
@@ -251,6 +254,12 @@ std::optional<Found> find_loop(const SetQuestion& question, const std::optional<
         continue;
       }
       Found found{*steady, loop_network(question.tracker, *steady, band)};
+      if (!(rigor::magnitude(found.network.bias) < half_distance)) {
+        throw NoFrame(
+            fmt::format("the steady state that is found is off by {:.3g} rad/sample at some frequency "
+                        "of the band: no lock to the signal",
+                        rigor::magnitude(found.network.bias)));
+      }
       if (linear::proposed_horizon(found.network.a, 1, 0.5, SIZE_MAX)) {
         return found;
       }

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "analysis/linear/loop_margins.hpp"
 #include "analysis/model/gain/gain_attack.hpp"
 #include "analysis/model/gain/linear_loop.hpp"
 #include "analysis/model/gain/loop_detector.hpp"
@@ -17,6 +15,7 @@
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/frequency_units.hpp"
+#include "certificates/sets/linear_loop_table.hpp"
 
 namespace veritrack::certificates {
 
@@ -97,80 +96,6 @@ std::string steady_state_table(const model::GainProof& proof, const Model& model
          "are "
          "in `certificate.json`):\n\n" +
          markdown::table({"State", "Is"}, rows) + note + "\n";
-}
-
-/// The first sample from which on the share stays within 2 % of 1.
-std::size_t settled_from(const std::vector<double>& share) {
-  constexpr double kNear = 0.02;
-  std::size_t from = share.size();
-  while (from > 0 && std::fabs(share[from - 1] - 1.0) <= kNear) {
-    --from;
-  }
-  return from;
-}
-
-/// "82.6 samples (6.6 ms)".
-std::string duration(double samples, const std::optional<Number>& rate) {
-  std::string text = fmt::format("{:.4g} samples", samples);
-  if (!rate) {
-    return text;
-  }
-  const double seconds = samples / rate->nearest;
-  return text +
-         (seconds < 1.0 ? fmt::format(" ({:.3g} ms)", 1e3 * seconds) : fmt::format(" ({:.3g} s)", seconds));
-}
-
-/// Of the detector's gain, of the phase and of a delay.
-template <typename InUnits>
-void add_margins(const linear::DetectorLoop& loop, const InUnits& in_units, const std::optional<Number>& rate,
-                 std::vector<std::vector<std::string>>& rows) {
-  const linear::GainMargin margin = linear::gain_margin(loop);
-  const std::string low = margin.low > 0.0 ? fmt::format("from {:.3g}", margin.low) : std::string();
-  const std::string high =
-      std::isfinite(margin.high) ? fmt::format("up to {:.3g}", margin.high) : std::string();
-  rows.push_back({"the detector's gain times this factor is stable",
-                  low + (low.empty() || high.empty() ? "" : " ") + high +
-                      (low.empty() && high.empty() ? "any from 0.001 to 1000" : "")});
-  if (const auto delay = linear::delay_margin(loop)) {
-    rows.push_back(
-        {fmt::format("phase margin, where the open loop has the gain 1: at {}", in_units(delay->crossover)),
-         fmt::format("{:.3g}°", delay->phase * 180.0 / std::numbers::pi)});
-    rows.push_back({"a further delay in the loop is stable below", duration(delay->samples, rate)});
-  }
-}
-
-/// Modes, the response to a step, noise and margins of the linear loop.
-std::string linear_table(const model::GainProof& proof, const ModelAssumptions& assume,
-                         const FrequencyUnits& units) {
-  const model::LoopNetwork& network = proof.gains->network();
-  const linear::LinearLoop loop = model::linear_loop(network);
-  std::vector<std::vector<std::string>> rows;
-  const auto in_units = [&](double radians) {
-    return fmt::format("{:.4g} rad/sample{}", radians,
-                       units.has_hertz() ? fmt::format(" ({:.4g} Hz)", units.drawn(radians)) : "");
-  };
-  for (const linear::LoopMode& mode : linear::modes_of(loop)) {
-    if (mode.time_constant == 0.0) {
-      continue;
-    }
-    const bool is_pair = mode.multiplier.imag() != 0.0;
-    rows.push_back({is_pair ? fmt::format("pair of modes at {}, damping {:.3g}: time constant",
-                                          in_units(mode.frequency), mode.damping)
-                            : fmt::format("mode {:.6g}: time constant", mode.multiplier.real()),
-                    duration(mode.time_constant, assume.sample_rate)});
-  }
-  const std::vector<double> share = linear::followed_share(loop, proof.gains->samples());
-  const double most = *std::max_element(share.begin(), share.end());
-  rows.push_back(
-      {"step of the frequency: overshoot", fmt::format("{:.3g} %", std::max(0.0, 100.0 * (most - 1.0)))});
-  rows.push_back({"step of the frequency: within 2 % from sample",
-                  duration(static_cast<double>(settled_from(share)), assume.sample_rate)});
-  rows.push_back({"white noise of deviation 1 in each channel: deviation of the frequency",
-                  in_units(linear::noise_deviation(loop, proof.gains->samples()))});
-  if (const auto detector = model::detector_of(network, proof.steady).loop) {
-    add_margins(*detector, in_units, assume.sample_rate, rows);
-  }
-  return "*Computed, not proved:* the linear loop.\n\n" + markdown::table({"Property", "Value"}, rows) + "\n";
 }
 
 /// Of an unstable loop: what would make it stable.
@@ -272,7 +197,10 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
   text += gain_limits_table(sets.noise ? &*sets.noise : nullptr, sets.slew ? &*sets.slew : nullptr,
                             sets.starts, units);
   if (proof.gains) {
-    text += linear_table(proof, assume, units) + model_picture(options, "response.svg");
+    text +=
+        linear_loop_table(model::linear_loop(proof.gains->network()), proof.gains->samples(),
+                          model::detector_of(proof.gains->network(), proof.steady).loop, assume.sample_rate) +
+        model_picture(options, "response.svg");
   }
   return text + steady_state_table(proof, model);
 }

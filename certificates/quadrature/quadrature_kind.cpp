@@ -12,6 +12,7 @@
 #include "certificates/quadrature/comparison_table.hpp"
 #include "certificates/quadrature/coq_quadrature.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/linear_filter.hpp"
 #include "certificates/quadrature/lock.hpp"
 #include "certificates/quadrature/lowest_snr.hpp"
 #include "certificates/quadrature/markdown_other_results.hpp"
@@ -89,10 +90,12 @@ std::string sections(const Certificate& certificate, const MarkdownOptions& opti
   if (tables.assume.gaussian) {
     return design_section(certificate) + assumptions_section(tables.assume) + lock_section(certificate) +
            mean_square_section(certificate) + lowest_snr_section(certificate) +
-           simulated_run_section(certificate, tables.simulate, options) + lock_coverage_section();
+           linear_filter_section(certificate) + simulated_run_section(certificate, tables.simulate, options) +
+           lock_coverage_section();
   }
   return design_section(certificate) + assumptions_section(tables.assume, start_covariance_of(certificate)) +
-         contraction_section(certificate) + comparison_section(certificate, ComparedResults::of_the_theorem) +
+         contraction_section(certificate) + linear_filter_section(certificate) +
+         comparison_section(certificate, ComparedResults::of_the_theorem) +
          simulated_run_section(certificate, tables.simulate, options) + coverage_section();
 }
 

@@ -65,11 +65,12 @@ std::string text_of(const Bound& bound, const Bound& other) {
   return text(bound.value, text(bound.value, kDigits) == text(other.value, kDigits) ? kAllDigits : kDigits);
 }
 
-std::string words_of(const std::string& name, const std::string& change) {
+/// `label`: the name, or the name and whose it is.
+std::string words_of(const std::string& name, const std::string& label, const std::string& change) {
   const auto* const known =
       std::find_if(kWords.begin(), kWords.end(), [&](const Words& words) { return words.name == name; });
-  return known == kWords.end() ? fmt::format("{}: {}", name, change)
-                               : fmt::format("{}: {}{} ({})", known->words, change, known->unit, name);
+  return known == kWords.end() ? fmt::format("{}: {}", label, change)
+                               : fmt::format("{}: {}{} ({})", known->words, change, known->unit, label);
 }
 
 class Changes {
@@ -149,15 +150,15 @@ class Changes {
                                                          : Kind::worse,
                  id, fmt::format("{}: {} -> {}", id, old_verdict, new_verdict));
     } else if (counts) {
-      of_bounds(*from, *to);
+      of_bounds(id, *from, *to);
     }
   }
 
-  void of_bounds(const Said& before, const Said& after) {
+  void of_bounds(const std::string& id, const Said& before, const Said& after) {
     for (const auto& [name, from] : before.bounds) {
       const auto found = after.bounds.find(name);
       if (found == after.bounds.end() || found->second.is_upper != from.is_upper) {
-        add_bound_change(Kind::worse, name,
+        add_bound_change(id, Kind::worse, name,
                          fmt::format("{} -> not said", text_of(from, {0.0, from.is_upper})));
         continue;
       }
@@ -168,21 +169,23 @@ class Changes {
         continue;
       }
       const bool is_better = from.is_upper ? to.value < from.value : to.value > from.value;
-      add_bound_change(is_better ? Kind::better : Kind::worse, name,
+      add_bound_change(id, is_better ? Kind::better : Kind::worse, name,
                        fmt::format("{} -> {}", text_of(from, to), text_of(to, from)));
     }
     for (const auto& [name, to] : after.bounds) {
       if (!before.bounds.contains(name)) {
-        add_bound_change(Kind::better, name, fmt::format("not said -> {}", text_of(to, {0.0, to.is_upper})));
+        add_bound_change(id, Kind::better, name,
+                         fmt::format("not said -> {}", text_of(to, {0.0, to.is_upper})));
       }
     }
   }
 
-  /// Several claims may have the same bound, which is told once.
-  void add_bound_change(Kind kind, const std::string& name, const std::string& change) {
-    const std::string text = words_of(name, change);
-    if (told_.insert(text).second) {
-      add_result(kind, name, text);
+  /// Several claims may have the same bound, which is told once; of another one it is said whose it is.
+  void add_bound_change(const std::string& id, Kind kind, const std::string& name,
+                        const std::string& change) {
+    if (told_.insert(name + change).second) {
+      const bool is_first = named_.insert(name).second;
+      add_result(kind, name, words_of(name, is_first ? name : name + " of " + id, change));
     }
   }
 
@@ -213,6 +216,7 @@ class Changes {
   std::set<std::string> used_;
   std::set<std::string> worse_;
   std::set<std::string> told_;
+  std::set<std::string> named_;
   std::set<std::string> accepted_results_;
   bool has_accepted_requirement_ = false;
   std::vector<std::string> loosened_;

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <functional>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "analysis/model/gain/frame_value.hpp"
-#include "analysis/model/gain/steady_proposal.hpp"
+#include "analysis/model/question/found_loop.hpp"
 #include "analysis/model/question/largest_value.hpp"
 #include "analysis/model/tube/false_lock.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -198,111 +195,6 @@ bool is_near_linear(const ProvedSets& by_gains) {
          proof.assumed->long_run <= kNear * proof.gains->linear_error(assumed.noise, assumed.slew);
 }
 
-namespace {
-
-/// States near which a steady state may be: that of the design, the same with every angle half a turn further
-/// (a detector that multiplies is at rest there, too), and one to which a simulation comes.
-std::vector<StartState> places_to_look(const SetQuestion& question) {
-  constexpr int kSamples = 20'000;
-  const std::vector<bool>& is_angle = question.tracker.recursion->is_angle;
-  const TrackedTone& tone = question.tone;
-  const auto turned = [start = tone.start, is_angle](double omega) {
-    std::vector<double> state = start(omega);
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      state[i] += is_angle[i] ? std::numbers::pi : 0.0;
-    }
-    return state;
-  };
-  const auto simulated = [&tone, is_angle](double omega) {
-    const rigor::NearestRounding nearest;
-    const std::vector<double> start = tone.start(omega);
-    Eigen::VectorXd state =
-        Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()));
-    for (int k = 1; k <= kSamples; ++k) {
-      const double phase = std::remainder(k * omega, 2.0 * std::numbers::pi);
-      state = tone.step.next(state, samples_of(tone.signal, tone.amplitude, phase));
-    }
-    std::vector<double> found(state.begin(), state.end());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      found[i] = is_angle[i] ? std::remainder(found[i] - kSamples * omega, 2.0 * std::numbers::pi) : found[i];
-    }
-    return found;
-  };
-  return {tone.start, turned, simulated};
-}
-
-/// The network about a steady state.
-struct Found {
-  std::vector<SteadyValue> steady;
-  LoopNetwork network;
-};
-
-/// The first steady state about which errors decay, or else the first of all; none is as far from the true
-/// frequency as a false lock may be. Throws NoFrame.
-std::optional<Found> find_loop(const SetQuestion& question, const std::optional<ProposedVector>& vector) {
-  const Interval& band = question.whole_band;
-  // At one frequency, a little more shows how the steady state depends on it.
-  const double width = std::max(band.upper() - band.lower(), 1e-3);
-  const double half_distance = half_distance_to_false_lock(question.tracker, band);
-  std::optional<Found> first;
-  std::string objection;
-  for (const StartState& start : places_to_look(question)) {
-    try {
-      const auto steady =
-          proposed_steady_state(question.tracker, start, band.lower(), band.lower() + width, vector);
-      if (!steady) {
-        continue;
-      }
-      Found found{*steady, loop_network(question.tracker, *steady, band)};
-      if (!(rigor::magnitude(found.network.bias) < half_distance)) {
-        throw NoFrame(
-            fmt::format("the steady state that is found is off by {:.3g} rad/sample at some frequency "
-                        "of the band: no lock to the signal",
-                        rigor::magnitude(found.network.bias)));
-      }
-      if (linear::proposed_horizon(found.network.a, 1, 0.5, SIZE_MAX)) {
-        return found;
-      }
-      if (!first) {
-        first = std::move(found);
-      }
-    } catch (const NoFrame& reason) {
-      objection = objection.empty() ? reason.what() : objection;
-    }
-  }
-  if (!first && !objection.empty()) {
-    throw NoFrame(objection);
-  }
-  return first;
-}
-
-/// With each state by itself, or else with two of them as a vector whose direction alone matters. A start
-/// that is assumed off the steady state says nothing of directions.
-std::optional<Found> find_loop(const SetQuestion& question) {
-  try {
-    return find_loop(question, std::nullopt);
-  } catch (const NoFrame&) {
-    for (const ProposedVector& vector : possible_vectors(question.tracker)) {
-      const auto is_off = [&](std::size_t state) {
-        return question.assumes_start && question.deviations.at(state).upper() > 0.0;
-      };
-      try {
-        if (is_off(vector.real) || is_off(vector.imaginary)) {
-          continue;
-        }
-        if (std::optional<Found> found = find_loop(question, vector)) {
-          return found;
-        }
-      } catch (const NoFrame&) {
-        continue;  // what is said of the first attempt is of more use
-      }
-    }
-    throw;
-  }
-}
-
-}  // namespace
-
 std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::string* reason) {
   constexpr std::size_t kBlocks = 64;
   constexpr double kTail = 1e-8;
@@ -326,7 +218,7 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::strin
     return nothing("the band goes beyond half the sample rate, or, with one channel, to 0");
   }
   try {
-    std::optional<Found> found = find_loop(question);
+    std::optional<FoundLoop> found = find_loop(question);
     if (!found) {
       return nothing("no steady state was found from [model] start");
     }

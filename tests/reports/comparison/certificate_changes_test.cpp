@@ -47,6 +47,18 @@ TEST_CASE("a bound from above is better when it is less, one from below when it 
   CHECK(changes_between(lower("0x1p+0"), lower("0x1p+0"), 0.0).empty());
 }
 
+TEST_CASE("the same bound of another claim says whose it is, and is told once where it is the same") {
+  const auto both = [](const char* guarantee, const char* limits) {
+    return certificate(claim("ekf/guarantee", std::string(R"("bound": {"hi": ")") + guarantee + "\"}") + "," +
+                       claim("ekf/limits", std::string(R"("bound": {"hi": ")") + limits + "\"}"));
+  };
+  const auto changes = changes_between(both("0x1p+0", "0x1p+0"), both("0x1p-1", "0x1p+1"), 0.001);
+  REQUIRE(changes.size() == 2);
+  CHECK(changes[0].text == "bound: 1 -> 0.5");
+  CHECK(changes[1].text == "bound of ekf/limits: 1 -> 2");
+  CHECK(changes_between(both("0x1p+0", "0x1p+0"), both("0x1p-1", "0x1p-1"), 0.001).size() == 1);
+}
+
 TEST_CASE("what is not a number is worse, from above and from below") {
   for (const char* end : {"hi", "lo"}) {
     const auto bound = [&](const char* value) {

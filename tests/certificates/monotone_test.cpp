@@ -283,7 +283,7 @@ TEST_CASE("what is proved of the harder of two questions is proved of the easier
 TEST_CASE("what is proved of the harder of many pairs of questions is proved of the easier one" *
           doctest::test_suite("nightly")) {
   check_kinds(cheap_kinds(), 30);
-  check_kinds(dear_kinds(), 8);
+  check_kinds(dear_kinds(), 1);  // a minute for each of three certificates of a pair
 }
 
 }  // namespace veritrack::certificates

@@ -48,7 +48,7 @@ TEST_CASE("no start on the rim of a certified set leaves it, under disturbances 
           doctest::test_suite("nightly")) {
   const auto starts = static_cast<int>(test::effort(2000));
   constexpr int kSamples = 60;
-  constexpr double kSecondsOfSearch = 900.0;  // what is proved by then is attacked
+  constexpr double kSecondsOfSearch = 240.0;  // what is proved by then is attacked
   for (const std::filesystem::path& path : attacked_designs()) {
     CAPTURE(path.filename().string());
     const Design design = [&] {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -132,11 +133,15 @@ Figure root_locus_figure(const RootLocus& locus) {
   FigureTable given = given_of(locus);
   std::string script = gnuplot_style(locus.is_in_frame ? 460 : 420);
   script += modes.block() + given.block() + "set lmargin 10\nset rmargin 3\n";
-  if (locus.is_in_frame) {
-    script += "set multiplot layout 1,2\n" + circle_panel(locus) + size_panel(locus) + "unset multiplot\n";
-  } else {
-    script += size_panel(locus);
-  }
+  // gnuplot draws no axes for nothing: where no mode decays at any value, the plane is all.
+  const bool decays =
+      std::any_of(locus.points.begin(), locus.points.end(), [](const RootLocus::Point& point) {
+        return !point.multipliers.empty() && std::abs(point.multipliers.back()) < 1.0;
+      });
+  script += fmt::format("set multiplot layout 1,{}\n", locus.is_in_frame && decays ? 2 : 1);
+  script += locus.is_in_frame ? circle_panel(locus) : "";
+  script += decays ? size_panel(locus) : "";
+  script += "unset multiplot\n";
   std::string caption = fmt::format(
       "Computed, not proved: by what each mode of the errors is multiplied at a sample, and how fast it "
       "decays, for {} from {:.4g} "
@@ -160,7 +165,7 @@ std::string stable_values(const RootLocus& locus) {
   for (const RootLocus::Range& range : locus.stable) {
     texts.push_back(fmt::format("{:.4g} to {:.4g}", range.from, range.to));
   }
-  return texts.empty() ? "none of these values" : fmt::format("{}", fmt::join(texts, ", "));
+  return texts.empty() ? "at none of these values" : fmt::format("from {}", fmt::join(texts, ", "));
 }
 
 std::string root_locus_document(const certificates::Design& design, const RootLocus& locus,
@@ -170,8 +175,8 @@ std::string root_locus_document(const certificates::Design& design, const RootLo
   const std::string at =
       fmt::format("{:.6g} rad/sample{}", locus.frequency,
                   units.has_hertz() ? fmt::format(" ({:.6g} Hz)", units.drawn(locus.frequency)) : "");
-  std::string text = fmt::format("# Stable for `{}` from {} (computed, not proved)\n\n", locus.parameter,
-                                 stable_values(locus));
+  std::string text =
+      fmt::format("# Stable for `{}` {} (computed, not proved)\n\n", locus.parameter, stable_values(locus));
   text += fmt::format(
       "The linear loop of {}, on a tone of {} without noise, with `{}` from {:.5g} to {:.5g} and the other "
       "parameters as they are. The design has {:.6g}. ",
@@ -208,7 +213,7 @@ MapResult write_root_locus(const certificates::Design& design, const MapRequest&
   files.stage(directory / "root-locus.csv", figure.data.front().csv());
   files.commit();
   return {directory / "root-locus.md",
-          fmt::format("not proved: stable for {} from {}", locus.parameter, stable_values(locus))};
+          fmt::format("not proved: stable for {} {}", locus.parameter, stable_values(locus))};
 }
 
 }  // namespace veritrack::reports

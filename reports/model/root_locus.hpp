@@ -14,7 +14,7 @@ namespace veritrack::reports {
 /// Not drawn yet.
 [[nodiscard]] Figure root_locus_figure(const certificates::RootLocus& locus);
 
-/// "0.05 to 15.9, 20 to 40"; or "none of these values".
+/// "from 0.05 to 15.9, 20 to 40"; or "at none of these values".
 [[nodiscard]] std::string stable_values(const certificates::RootLocus& locus);
 
 /// The document root-locus.md, the answer first.

@@ -43,7 +43,11 @@ TEST_CASE("a root locus: the answer first, a line for each value, and what it is
   const Figure sizes = root_locus_figure(other);
   CHECK(sizes.script.find("cos(t), sin(t)") == std::string::npos);
   text = root_locus_document(design, other, sizes);
-  CHECK(text.find("none of these values") != std::string::npos);
+  CHECK(text.starts_with("# Stable for `kp` at none of these values"));
+  other.is_in_frame = true;
+  other.points = {other.points.back()};
+  other.points.front().multipliers = {{1.1, 0.0}};
+  CHECK(root_locus_figure(other).script.find("time constant") == std::string::npos);  // there is none to draw
   CHECK(text.find("damping") == std::string::npos);
   CHECK(text.find("not how it turns") != std::string::npos);
 }

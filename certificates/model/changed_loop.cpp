@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "analysis/model/gain/floquet_proposal.hpp"
 #include "analysis/model/gain/frame_value.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -50,7 +52,7 @@ std::optional<Multipliers> ChangedLoop::over_phase(double value) const {
   constexpr double kShare = 0.1;  // of the frequency: more is another lock
   const auto cell =
       model::propose_floquet_cell(proposed_tone(model, changed.assume), model::FloquetGauge::by_mode, omega,
-                                  omega + 1e-6, kShare * omega);
+                                  omega + 1e-6, kShare * std::fabs(omega));
   if (!cell) {
     return std::nullopt;
   }

@@ -66,7 +66,8 @@ std::string linear_filter_section(const Certificate& certificate) {
          "order in "
          "the errors, the filter has constant gains in the frame that turns with the signal. Large errors, "
          "and a "
-         "covariance that has not settled yet, are not covered by this table.\n\n" +
+         "covariance that has not settled yet, are not covered by this table. Its detector is the innovation "
+         "across the signal; margins are for gains that stay as they are.\n\n" +
          linear_loop_table(filter->loop, samples_of(filter->loop.a), filter->detector,
                            quadrature_tables(certificate.design).assume.sample_rate);
 }

@@ -25,8 +25,7 @@ Adjoint adjoint_of(const TrackedTone& tone, const std::vector<SteadyValue>& stea
                    std::size_t samples) {
   const auto n = static_cast<Eigen::Index>(steady.size());
   const bool is_one = tone.step.recursion().samples == 1;
-  const bool has_vectors =
-      std::any_of(steady.begin(), steady.end(), [](const SteadyValue& each) { return each.imaginary; });
+  const bool has_vectors = vector_of(steady).has_value();
   // With two channels the steady state is a point in the frame of the signal, but for vectors.
   const bool is_point = !is_one && !has_vectors;
   const auto slope_at = [&](double phase) {
@@ -36,6 +35,7 @@ Adjoint adjoint_of(const TrackedTone& tone, const std::vector<SteadyValue>& stea
   const Eigen::MatrixXd first = slope_at(0.0);
   const double last = is_point ? 0.0 : std::remainder(static_cast<double>(samples) * omega, kTurn);
   Eigen::RowVectorXd row = tone.step.frequency_gradient(state_at(tone, steady, last, omega));
+  Eigen::VectorXd moved = state_per_frequency(tone, steady, 0.0, omega);
   Adjoint adjoint{std::vector<std::complex<double>>(samples), std::vector<double>(samples)};
   for (std::size_t k = samples; k-- > 0;) {
     const double phase = is_point ? 0.0 : std::remainder(static_cast<double>(k) * omega, kTurn);
@@ -45,7 +45,10 @@ Adjoint adjoint_of(const TrackedTone& tone, const std::vector<SteadyValue>& stea
         is_one ? std::complex<double>(effect(0), 0.0)
                : std::complex<double>(effect(0), effect(1)) * std::polar(1.0, -phase - omega);
     adjoint.noise[k] = std::abs(direction) > 0.0 ? direction / std::abs(direction) : 0.0;
-    adjoint.slew[k] = row.dot(state_per_frequency(tone, steady, phase + omega, omega)) < 0.0 ? 1.0 : -1.0;
+    if (has_vectors) {
+      moved = state_per_frequency(tone, steady, phase + omega, omega);
+    }
+    adjoint.slew[k] = row.dot(moved) < 0.0 ? 1.0 : -1.0;
     row = (row * slope.leftCols(n)).eval();
   }
   return adjoint;

@@ -1,7 +1,6 @@
 #include "analysis/model/gain/loop_detector.hpp"
 
-#include <algorithm>
-
+#include "analysis/model/gain/steady_proposal.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::model {
@@ -55,7 +54,7 @@ Row effect_of_phase(const LoopNetwork& network, const std::vector<SteadyValue>& 
 }  // namespace
 
 LoopDetector detector_of(const LoopNetwork& network, const std::vector<SteadyValue>& steady) {
-  if (std::any_of(steady.begin(), steady.end(), [](const SteadyValue& each) { return each.imaginary; })) {
+  if (vector_of(steady)) {
     return {
         std::nullopt,
         "the step compares the samples with samples that it has kept: no gain of a detector alone decides "

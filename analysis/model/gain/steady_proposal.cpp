@@ -118,9 +118,7 @@ Eigen::VectorXd state_with(const std::vector<SteadyValue>& steady, const Eigen::
 Eigen::VectorXd lengths_of(const TrackedTone& tone, const std::vector<SteadyValue>& steady, double omega) {
   Eigen::VectorXd lengths =
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(steady.size()), tone.amplitude);
-  const bool has_vectors =
-      std::any_of(steady.begin(), steady.end(), [](const SteadyValue& each) { return each.imaginary; });
-  if (!has_vectors) {
+  if (!vector_of(steady)) {
     return lengths;
   }
   const Eigen::VectorXd next = tone.step.next(state_with(steady, lengths, -omega, omega),

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "analysis/dft_block/late_errors.hpp"
+#include "analysis/dft_block/late_proposal.hpp"
 #include "analysis/dft_block/lock_search.hpp"
 #include "analysis/dft_block/tone_sums.hpp"
 #include "analysis/rigor/decimal.hpp"
@@ -26,8 +28,8 @@ using theorems::Sense;
 struct Found {
   LockBounds set;
   LockRate rate;
-  std::optional<LockRate> late;  ///< for a smaller radius, below which every error comes
-  Interval start;                ///< |e| of all starts, at most
+  std::vector<LateStage> stages;  ///< nearer to the exact lock, each of which is reached
+  Interval start;                 ///< |e| of all starts, at most
   Interval disturbance;
 };
 
@@ -74,7 +76,7 @@ LadderResult climb(const LockQuestion& question, const LockSearch& search) {
     if (is_covered && tolerates && frame->verify(*rate, question.most_cells)) {
       result.had_rate = true;
       result.had_room = true;
-      result.found = Found{*set, *rate, std::nullopt, start, disturbance};
+      result.found = Found{*set, *rate, {}, start, disturbance};
       return result;
     }
     result.had_rate = true;
@@ -85,36 +87,32 @@ LadderResult climb(const LockQuestion& question, const LockSearch& search) {
   return result;
 }
 
-/// A smaller radius with a better rate, for the long run.
-std::optional<LockRate> late_rate(const Found& found, const LockFrame& frame, const LockQuestion& question,
-                                  const LockSearch& search) {
-  constexpr double kRoom = 1.05;
-  const double radius = kRoom * invariant_length(found.disturbance, found.rate).upper();
-  if (!(radius > 0.0) || !(radius < 0.95 * found.rate.radius)) {
-    return std::nullopt;
-  }
-  const auto rate = search.rate_for(found.set, radius);
-  if (!rate || !(rate->rate < found.rate.rate) || !frame.verify(*rate, question.most_cells)) {
-    return std::nullopt;
-  }
-  return rate;
-}
-
-/// The first block from which |e| is at most that for ever; empty when it takes longer than can be counted.
-std::optional<double> blocks_until(const Interval& length, const Found& found) {
-  Interval e = found.start;
-  constexpr int kMost = 100'000;
-  for (int block = 1; block < kMost; ++block) {
-    // Once below the late radius errors stay there.
-    const bool is_late = found.late && rigor::certainly_less_equal(e, Interval(found.late->radius));
-    const LockRate& rate = is_late ? *found.late : found.rate;
-    const bool stays = rigor::certainly_less_equal(invariant_length(found.disturbance, rate), length);
-    if (stays && rigor::certainly_less_equal(e, length)) {
-      return block;
+/// Stages for the long run: each a little larger than the errors that the one before leaves.
+std::vector<LateStage> late_stages(const Found& found, const LockFrame& frame, const LockQuestion& question,
+                                   const LockSearch& search) {
+  constexpr double kRoom = 1.02;
+  constexpr double kWorthwhile = 0.9;  // of the bound before
+  constexpr double kFirstRoom = 0.03;  // covariances come sooner to the first
+  constexpr int kMostStages = 4;
+  std::vector<LateStage> stages;
+  Timeline timeline = timeline_of(frame, found.set, found.rate, stages, found.start);
+  while (stages.size() < kMostStages && rigor::certainly_positive(timeline.ultimate)) {
+    const Interval before = timeline.ultimate;
+    const double room = 1.0 + kFirstRoom / (1.0 + static_cast<double>(stages.size()));
+    const auto stage = propose_stage(search, timeline.late.enlarged(kRoom), room);
+    const auto own = stage ? LockFrame::make(question.problem, found.set.with(*stage)) : std::nullopt;
+    if (!own) {
+      break;
     }
-    e = Interval((Interval(rate.rate) * e + found.disturbance).upper());
+    stages.push_back(*stage);
+    timeline = timeline_of(frame, found.set, found.rate, stages, found.start);
+    if (!rigor::certainly_less(timeline.ultimate, Interval(kWorthwhile) * before) ||
+        !own->verify(*stage, question.most_cells)) {
+      stages.pop_back();
+      break;
+    }
   }
-  return std::nullopt;
+  return stages;
 }
 
 struct Text {
@@ -150,21 +148,23 @@ void add_bounds(Derivation& derivation, const Found& found, const LockFrame& fra
       {"amplitude_error_bound", "\\sup_k |\\hat x_1/x_1 - 1|",
        "the error of x1 in every prediction, relative to the tone's"},
       ever * frame.reach(0));
-  const Interval last = found.late ? invariant_length(found.disturbance, *found.late) : rest;
+  const Timeline timeline = timeline_of(frame, found.set, found.rate, found.stages, found.start);
   add(derivation,
       {"ultimate_offset_error", "\\limsup_k |\\tilde\\delta_k|", "the offset error in the long run, bins"},
-      last * frame.reach(2));
-  const double wanted =
-      question.settled_error ? *question.settled_error : 2.0 * (last * frame.reach(2)).upper();
-  const Interval length((Interval(wanted) / frame.reach(2)).lower());
-  const bool says_more = question.settled_error || rigor::certainly_less(length, ever);
-  if (says_more && rigor::certainly_positive(length)) {
-    if (const auto blocks = blocks_until(length, found)) {
-      add(derivation, {"settling_blocks", "k_s", "the block from which the offset error has settled"},
-          Interval(*blocks));
-      add(derivation, {"settled_offset_error", "\\delta_s", "the offset error from then on, bins"},
-          Interval(wanted));
-    }
+      timeline.ultimate);
+  const double wanted = question.settled_error ? *question.settled_error : 2.0 * timeline.ultimate.upper();
+  if (!question.settled_error && !rigor::certainly_less(Interval(wanted), ever * frame.reach(2))) {
+    return;
+  }
+  const auto settled = std::ranges::find_if(timeline.offset_error, [&](const Interval& error) {
+    return rigor::certainly_less_equal(error, Interval(wanted));
+  });
+  if (settled != timeline.offset_error.end()) {
+    const auto block = 1 + (settled - timeline.offset_error.begin());
+    add(derivation, {"settling_blocks", "k_s", "the block from which the offset error has settled"},
+        Interval(static_cast<double>(block)));
+    add(derivation, {"settled_offset_error", "\\delta_s", "the offset error from then on, bins"},
+        Interval(wanted));
   }
 }
 
@@ -177,12 +177,21 @@ void add_evidence(Derivation& derivation, const Found& found) {
                                {"rate", found.rate.rate},
                                {"weight", found.rate.weight}},
                               {{"frame", found.set.frame}}};
-  if (found.late) {
-    evidence.numbers.insert(evidence.numbers.end(), {{"late_radius", found.late->radius},
-                                                     {"late_rate", found.late->rate},
-                                                     {"late_weight", found.late->weight}});
-  }
   derivation.evidence.push_back(std::move(evidence));
+  for (const LateStage& stage : found.stages) {
+    derivation.evidence.push_back(
+        {"late-" + std::to_string(derivation.evidence.size()),
+         {{"radius", stage.errors.radius},
+          {"limit_1", stage.errors.limits(0)},
+          {"limit_2", stage.errors.limits(1)},
+          {"limit_3", stage.errors.limits(2)},
+          {"above", stage.above},
+          {"below", stage.below},
+          {"next_above", stage.next_above},
+          {"next_below", stage.next_below},
+          {"noise_weight", stage.noise_weight}},
+         {{"reference", stage.reference}, {"excess", stage.excess}, {"noise", stage.noise}}});
+  }
 }
 
 /// The covariance with which to start, in floating point.
@@ -220,7 +229,7 @@ Derivation derive_lock(const LockQuestion& question) {
     frame = LockFrame::make(question.problem, result.found->set);
     starts = frame && (!question.covariance || frame->holds(*question.covariance));
     if (frame) {
-      result.found->late = late_rate(*result.found, *frame, question, search);
+      result.found->stages = late_stages(*result.found, *frame, question, search);
     }
   }
   const bool is_found = result.found && frame;

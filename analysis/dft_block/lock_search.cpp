@@ -36,10 +36,6 @@ PointMatrix next_covariance(const PointMatrix& p, const PointMatrix& information
   return turn * (p.inverse() + information).inverse() * turn.transpose() + noise;
 }
 
-double smallest_eigenvalue(const PointMatrix& a) {
-  return rigor::least_eigenvalue(PointMatrix(0.5 * (a + a.transpose())));
-}
-
 /// L with L L' = a; not a number where there is none.
 PointMatrix root_of(const PointMatrix& a) {
   return rigor::cholesky(a).value_or(
@@ -61,7 +57,7 @@ std::vector<PointVector> directions(int count) {
 /// Room that a proposal leaves for its proof.
 constexpr double kDriftRoom = 1.1;
 
-/// A step from one error, in the frame of the set.
+/// A block with Gaussian noise of a tilt.
 struct DriftSample {
   PointMatrix step, secant, factor, gain, spread, turned;
 };
@@ -131,6 +127,10 @@ bool choose_floor(const std::vector<DriftSample>& samples, const DriftSample& mi
 }
 
 }  // namespace
+
+double smallest_eigenvalue(const PointMatrix& a) {
+  return rigor::least_eigenvalue(PointMatrix(0.5 * (a + a.transpose())));
+}
 
 LockSearch::LockSearch(const LockProblem& problem)
     : model_{midpoint(problem.q1),      midpoint(problem.q2),   midpoint(problem.q3),
@@ -214,16 +214,19 @@ PointMatrix LockSearch::secant(double amplitude, const PointVector& error, doubl
   return s;
 }
 
-std::optional<LockBounds> LockSearch::set_for(double radius) const {
+std::optional<LockBounds> LockSearch::set_for(const ErrorSet& errors, double room) const {
   const rigor::NearestRounding nearest;
-  const double first = radius * frame_.row(0).norm();
-  const double third = radius * frame_.row(2).norm();
+  const auto reach = [&](int i) {
+    return std::min(errors.radius * frame_.row(i).norm(), frame_.row(i).cwiseAbs().dot(errors.limits));
+  };
+  const double first = reach(0);
+  const double third = reach(2);
   constexpr double kMostFirst = 0.9;
   if (!(first < kMostFirst)) {
     return std::nullopt;
   }
   constexpr int kOffsets = 16;
-  constexpr double kGrow = 1.01;
+  const double grow = 1.0 + (room - 1.0) / 3.0;
   constexpr double kMost = 20.0;
   double above = 1.0;
   double below = 1.0;
@@ -245,10 +248,10 @@ std::optional<LockBounds> LockSearch::set_for(double radius) const {
                                      frame_.inverse().transpose()) > 0.0;
         };
         while (!is_above() && above < kMost) {
-          above *= kGrow;
+          above *= grow;
         }
         while (!is_below() && below < kMost) {
-          below *= kGrow;
+          below *= grow;
         }
       }
     }
@@ -261,47 +264,74 @@ std::optional<LockBounds> LockSearch::set_for(double radius) const {
   for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
     floor = std::min(floor, smallest_eigenvalue(inverse * process_noise(amplitude) * inverse.transpose()));
   }
-  constexpr double kRoom = 1.03;
-  return LockBounds{frame_, above * kRoom, below * kRoom, std::max(0.0, floor / kRoom)};
+  return LockBounds{frame_, above * room, below * room, std::max(0.0, floor / room)};
+}
+
+PointMatrix LockSearch::turn_in_frame() const {
+  return frame_.inverse() * turn_ * frame_;
+}
+
+std::vector<PointMatrix> LockSearch::process_noises_in_frame() const {
+  const PointMatrix inverse = frame_.inverse();
+  std::vector<PointMatrix> result;
+  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
+    result.emplace_back(inverse * process_noise(amplitude) * inverse.transpose());
+  }
+  return result;
+}
+
+BlockSample LockSearch::sample_at(const LockBounds& set, double amplitude, const PointVector& direction,
+                                  double offset) const {
+  const PointMatrix unit = PointMatrix::Identity();
+  const PointMatrix turn = turn_in_frame();
+  const PointVector error = frame_ * direction;
+  const PointMatrix j = frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
+  const PointMatrix s = frame_.transpose() * secant(amplitude, error, offset) * frame_;
+  const PointMatrix high = (j + unit / set.above).inverse();
+  const PointMatrix low = (j + unit * set.below).inverse();
+  const PointMatrix centre = 0.5 * (high + low);
+  const PointMatrix spread = 0.5 * (high - low);
+  return {turn * (unit - centre * s), s, j, centre, spread, turn * spread * turn.transpose()};
+}
+
+std::vector<BlockSample> LockSearch::samples(const LockBounds& set, const ErrorSet& errors, double inner,
+                                             int directions_of_each, int offsets) const {
+  std::vector<BlockSample> result;
+  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
+    for (const double share : {1.0, inner}) {
+      for (const PointVector& direction : directions(share > 0.0 ? directions_of_each : 0)) {
+        const PointVector e =
+            (share * errors.radius * direction).cwiseMin(errors.limits).cwiseMax(-errors.limits);
+        for (int i = 0; i <= offsets; ++i) {
+          const double offset = model_.offset_low + (model_.offset_high - model_.offset_low) * i / offsets;
+          result.push_back(sample_at(set, amplitude, e, offset));
+        }
+      }
+    }
+    if (!(model_.amplitude_high > model_.amplitude_low)) {
+      break;
+    }
+  }
+  return result;
 }
 
 std::optional<LockRate> LockSearch::rate_for(const LockBounds& set, double radius) const {
   const rigor::NearestRounding nearest;
-  struct Sample {
-    PointMatrix step, spread, turned;  ///< the step at the middle covariance, secant' D secant, F D F'
-  };
-  std::vector<Sample> samples;
-  const PointMatrix inverse = frame_.inverse();
-  const PointMatrix turn = inverse * turn_ * frame_;
+  constexpr double kInner = 0.6;
   constexpr int kDirections = 120;
   constexpr int kOffsets = 6;
-  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
-    for (const double length : {radius, 0.6 * radius}) {
-      for (const PointVector& direction : directions(kDirections)) {
-        const PointVector error = frame_ * direction * length;
-        for (int i = 0; i <= kOffsets; ++i) {
-          const double offset = model_.offset_low + (model_.offset_high - model_.offset_low) * i / kOffsets;
-          const PointMatrix j =
-              frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
-          const PointMatrix s = frame_.transpose() * secant(amplitude, error, offset) * frame_;
-          const PointMatrix high = (j + PointMatrix::Identity() / set.above).inverse();
-          const PointMatrix low = (j + PointMatrix::Identity() * set.below).inverse();
-          const PointMatrix d = 0.5 * (high - low);
-          samples.push_back({turn * (PointMatrix::Identity() - 0.5 * (high + low) * s), s.transpose() * d * s,
-                             turn * d * turn.transpose()});
-        }
-      }
-    }
-  }
+  const std::vector<BlockSample> found_samples =
+      samples(set, ErrorSet::ball(radius), kInner, kDirections, kOffsets);
   // rate^2 is the largest eigenvalue of weight s'Ds + A'(I - FDF'/weight)^-1 A.
   const auto squared_rate = [&](double weight) {
     double most = 0.0;
-    for (const Sample& sample : samples) {
+    for (const BlockSample& sample : found_samples) {
       const PointMatrix left = PointMatrix::Identity() - sample.turned / weight;
       if (!(smallest_eigenvalue(left) > 1e-3)) {
         return std::numeric_limits<double>::infinity();
       }
-      const PointMatrix all = weight * sample.spread + sample.step.transpose() * left.inverse() * sample.step;
+      const PointMatrix all = weight * sample.secant.transpose() * sample.spread * sample.secant +
+                              sample.step.transpose() * left.inverse() * sample.step;
       most = std::max(most, -smallest_eigenvalue(-all));
     }
     return most;
@@ -325,44 +355,27 @@ std::optional<LockRate> LockSearch::rate_for(const LockBounds& set, double radiu
 
 std::optional<LockDrift> LockSearch::drift_for(const LockBounds& set, double radius, double tilt) const {
   const rigor::NearestRounding nearest;
-  const PointMatrix unit = PointMatrix::Identity();
-  const PointMatrix turn = frame_.inverse() * turn_ * frame_;
-  const auto sample_at = [&](double amplitude, const PointVector& error, double offset) {
-    const PointMatrix j =
-        frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
-    const PointMatrix high = (j + unit / set.above).inverse();
-    const PointMatrix low = (j + unit * set.below).inverse();
-    const PointMatrix centre = 0.5 * (high + low);
-    const PointMatrix spread = 0.5 * (high - low);
-    const PointMatrix secant_here = frame_.transpose() * secant(amplitude, error, offset) * frame_;
-    const PointMatrix root = root_of(j);
-    const PointMatrix factor = std::sqrt(tilt) * root;
-    return DriftSample{
-        turn * (unit - centre * secant_here), secant_here, factor, turn * centre * factor, spread,
-        turn * spread * turn.transpose()};
+  const PointMatrix turn = turn_in_frame();
+  const auto drifting = [&](const BlockSample& one) {
+    const PointMatrix factor = std::sqrt(tilt) * root_of(one.information);
+    return DriftSample{one.step, one.secant, factor, turn * one.centre * factor, one.spread, one.turned};
   };
-  std::vector<DriftSample> samples;
   constexpr int kDirections = 40;
   constexpr int kOffsets = 4;
-  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
-    for (const PointVector& direction : directions(kDirections)) {
-      for (int i = 0; i <= kOffsets; ++i) {
-        const double offset = model_.offset_low + (model_.offset_high - model_.offset_low) * i / kOffsets;
-        samples.push_back(sample_at(amplitude, frame_ * direction * radius, offset));
-      }
-    }
-    if (!(model_.amplitude_high > model_.amplitude_low)) {
-      break;
-    }
+  std::vector<DriftSample> found_samples;
+  for (const BlockSample& one : samples(set, ErrorSet::ball(radius), 0.0, kDirections, kOffsets)) {
+    found_samples.push_back(drifting(one));
   }
   LockDrift drift;
   drift.radius = radius;
   drift.tilt = tilt;
-  choose_growth(samples, drift);
+  choose_growth(found_samples, drift);
   // The floor has the shape of that of the exact lock in the middle.
-  const DriftSample middle = sample_at(0.5 * (model_.amplitude_low + model_.amplitude_high),
-                                       PointVector::Zero(), 0.5 * (model_.offset_low + model_.offset_high));
-  return drift.growth < 1.0 && choose_floor(samples, middle, drift) ? std::optional(drift) : std::nullopt;
+  const DriftSample middle =
+      drifting(sample_at(set, 0.5 * (model_.amplitude_low + model_.amplitude_high), PointVector::Zero(),
+                         0.5 * (model_.offset_low + model_.offset_high)));
+  return drift.growth < 1.0 && choose_floor(found_samples, middle, drift) ? std::optional(drift)
+                                                                          : std::nullopt;
 }
 
 }  // namespace veritrack::dft_block

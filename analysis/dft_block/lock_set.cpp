@@ -19,7 +19,7 @@ using OffsetCell = rigor::IntervalVector<5>;  ///< errors, offset and amplitude
 
 /// Divided where the information changes most; empty when no double lies between the ends.
 std::optional<std::array<OffsetCell, 2>> halves_of(const OffsetCell& cell) {
-  const std::array weights{4.0, 0.5, 1.3, 1.3, 2.0 / cell(4).lower()};
+  const std::array weights{2.0, 0.15, 1.3, 1.3, 2.0 / cell(4).lower()};
   int widest = 0;
   for (int i = 1; i < 5; ++i) {
     if (weights[static_cast<std::size_t>(i)] * width(cell(i)) >
@@ -123,16 +123,20 @@ bool LockFrame::holds(const Matrix3& covariance) const {
          is_definite(Matrix3(inside - scaled_identity(Interval(1.0) / Interval(set_.below))));
 }
 
-bool LockFrame::is_outside(const Cell& cell, double radius) const {
+bool LockFrame::is_outside(const Cell& cell, const ErrorSet& errors) const {
   const Vector3 e = inverse_ * cell.head<3>();
   Interval sum(0.0);
   for (int i = 0; i < 3; ++i) {
+    if (rigor::certainly_less(Interval(errors.limits(i)), abs(e(i)))) {
+      return true;
+    }
     sum += square(e(i));
   }
-  return rigor::certainly_less(square(Interval(radius)), sum);
+  return rigor::certainly_less(square(Interval(errors.radius)), sum);
 }
 
-std::optional<LockFrame::BlockOverCell> LockFrame::block_over(const Cell& cell) const {
+std::optional<LockFrame::BlockOverCell> LockFrame::block_over(const Cell& cell,
+                                                              const NextBounds& next) const {
   const Interval& amplitude = cell(4);
   const Interval weight = square(amplitude) / (Interval(4.0) * problem_.r);
   const BlockInformation information =
@@ -146,8 +150,8 @@ std::optional<LockFrame::BlockOverCell> LockFrame::block_over(const Cell& cell) 
     return std::nullopt;
   }
   const Matrix3 noise = process_noise(amplitude);
-  if (!is_definite(Matrix3(scaled_identity(above) - moved(*highest) - noise)) ||
-      !is_definite(Matrix3(moved(*lowest) + noise - scaled_identity(Interval(1.0) / below)))) {
+  if (!is_definite(Matrix3(scaled_identity(Interval(next.above)) - moved(*highest) - noise)) ||
+      !is_definite(Matrix3(moved(*lowest) + noise - scaled_identity(Interval(1.0) / Interval(next.below))))) {
     return std::nullopt;
   }
   // With A = J + I/above, B = J + below I: I - (A^-1 + B^-1) J/2 = (A^-1/above + below B^-1)/2 and A^-1 -
@@ -174,6 +178,32 @@ bool LockFrame::falls_over(const Cell& cell, const LockRate& rate) const {
                         petersen * Matrix3(block->secant.transpose() * block->spread * block->secant);
   const Matrix3 second = scaled_identity(Interval(1.0)) - (Interval(1.0) / petersen) * moved(block->spread);
   return is_definite(first, block->step, second);
+}
+
+bool LockFrame::is_late_over(const Cell& cell, const LateStage& stage) const {
+  const auto block = block_over(cell, {stage.next_above, stage.next_below});
+  if (!block) {
+    return false;
+  }
+  // F (I - X secant) is `step`, and F D secant more or less; |u'Dv| <= sqrt(u'Du v'Dv).
+  const Matrix3 turned = moved(block->spread);
+  const Matrix3 seen = block->secant.transpose() * block->spread * block->secant;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const Interval middle = abs(block->step(i, j) - Interval(stage.reference(i, j)));
+      const Interval away = sqrt(max(Interval(0.0), turned(i, i)) * max(Interval(0.0), seen(j, j)));
+      if (!rigor::certainly_less_equal(middle + away, Interval(stage.excess(i, j)))) {
+        return false;
+      }
+    }
+  }
+  const Matrix3 gain = turn_ * block->centre * block->factor;
+  const Interval lost = (block->factor.transpose() * block->spread * block->factor).trace();
+  const Interval weight(stage.noise_weight);
+  const Interval one(1.0);
+  return is_definite(Matrix3(rigor::to_interval(stage.noise) -
+                             (one + weight) * Matrix3(gain * gain.transpose()) -
+                             (one + one / weight) * lost * turned));
 }
 
 bool LockFrame::drifts_over(const Cell& cell, const LockDrift& drift) const {
@@ -206,7 +236,21 @@ bool LockFrame::verify(const LockRate& rate, std::int64_t most_cells) const {
       !std::isfinite(rate.radius) || !std::isfinite(rate.weight)) {
     return false;
   }
-  return verify_cells(rate.radius, most_cells, [&](const Cell& cell) { return falls_over(cell, rate); });
+  return verify_cells(ErrorSet::ball(rate.radius), most_cells,
+                      [&](const Cell& cell) { return falls_over(cell, rate); });
+}
+
+bool LockFrame::verify(const LateStage& stage, std::int64_t most_cells) const {
+  const auto is_number = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (!is_number(stage.errors.radius) || !stage.errors.limits.allFinite() ||
+      !(stage.errors.limits.array() > 0.0).all() || stage.above != set_.above || stage.below != set_.below ||
+      !(stage.next_above >= 1.0 && stage.next_above < stage.above) ||
+      !(stage.next_below >= 1.0 && stage.next_below < stage.below) || !is_number(stage.noise_weight) ||
+      !stage.reference.allFinite() || !stage.excess.allFinite() || !stage.noise.allFinite() ||
+      stage.noise != stage.noise.transpose()) {
+    return false;
+  }
+  return verify_cells(stage.errors, most_cells, [&](const Cell& cell) { return is_late_over(cell, stage); });
 }
 
 bool LockFrame::verify(const LockDrift& drift, std::int64_t most_cells) const {
@@ -217,14 +261,19 @@ bool LockFrame::verify(const LockDrift& drift, std::int64_t most_cells) const {
       !is_definite(rigor::to_interval(drift.floor))) {
     return false;
   }
-  return verify_cells(drift.radius, most_cells, [&](const Cell& cell) { return drifts_over(cell, drift); });
+  return verify_cells(ErrorSet::ball(drift.radius), most_cells,
+                      [&](const Cell& cell) { return drifts_over(cell, drift); });
 }
 
-bool LockFrame::verify_cells(double radius, std::int64_t most_cells,
+bool LockFrame::verify_cells(const ErrorSet& errors, std::int64_t most_cells,
                              const std::function<bool(const Cell&)>& is_verified) const {
   Cell whole;
   for (int i = 0; i < 3; ++i) {
-    whole(i) = Interval(radius) * reach(i) * rigor::symmetric(1.0);
+    Interval within_limits(0.0);
+    for (int j = 0; j < 3; ++j) {
+      within_limits += abs(frame_(i, j)) * Interval(errors.limits(j));
+    }
+    whole(i) = min(Interval(errors.radius) * reach(i), within_limits) * rigor::symmetric(1.0);
   }
   whole(3) = problem_.offset;
   whole(4) = problem_.amplitude;
@@ -232,7 +281,7 @@ bool LockFrame::verify_cells(double radius, std::int64_t most_cells,
     return false;
   }
   const auto look = [&](const Cell& cell) -> search::CellDecision<Cell> {
-    if (is_outside(cell, radius) || is_verified(cell)) {
+    if (is_outside(cell, errors) || is_verified(cell)) {
       return {true};
     }
     return {false, halves_of(cell)};

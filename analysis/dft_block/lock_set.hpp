@@ -27,12 +27,36 @@ struct LockProblem {
   rigor::Interval slew;           ///< |offset_{k+1} - offset_k|, at most, bins
 };
 
-/// Exact doubles, proposed by anyone.
+/// The errors with |e| <= radius and |e_i| <= limits_i.
+struct ErrorSet {
+  double radius = 0.0;
+  rigor::Vector<3> limits;
+
+  static ErrorSet ball(double radius) { return {radius, rigor::Vector<3>::Constant(radius)}; }
+};
+
+/// Exact doubles, proposed by anyone: the effect of one block on such errors, coordinate by coordinate, once
+/// the covariances are nearer to the steady ones: e+ = (reference + E) e + noise, |E_ij| <= excess_ij, and of
+/// noise of length 1 the coordinate c'e gets sqrt(c' noise c / r) at most. docs/block-tracker.md, section 4.
+struct LateStage {
+  ErrorSet errors;
+  double above = 0.0, below = 0.0;            ///< I/below <= S <= above I in this stage
+  double next_above = 0.0, next_below = 0.0;  ///< and after one block from there, which is nearer
+  double noise_weight = 0.0;                  ///< splits the square of two parts of the noise's gain
+  rigor::Matrix<3> reference, excess, noise;
+};
+
+/// Also proposed.
 struct LockBounds {
   rigor::Matrix<3> frame;  ///< C
   double above = 0.0;
   double below = 0.0;
   double floor = 0.0;  ///< the process noise is at least floor I in the coordinates e
+
+  /// The same frame with a stage's bounds on the covariance.
+  [[nodiscard]] LockBounds with(const LateStage& stage) const {
+    return {frame, stage.above, stage.below, floor};
+  }
 };
 
 /// Also proposed: the effect of one block on errors up to a radius.
@@ -65,12 +89,16 @@ class LockFrame {
   /// to that radius, all offsets and amplitudes, without noise and slew: at most `most_cells` cells. Needs
   /// the upward mode.
   [[nodiscard]] bool verify(const LockRate& rate, std::int64_t most_cells) const;
+  /// The same for a stage, whose bounds on covariances are this set's.
+  [[nodiscard]] bool verify(const LateStage& stage, std::int64_t most_cells) const;
   /// True only when the covariances stay between their bounds, and growth and floor have their stated
   /// properties, likewise.
   [[nodiscard]] bool verify(const LockDrift& drift, std::int64_t most_cells) const;
   /// C^-1 (0, pi, 1)': added to e by a bin of slew.
   [[nodiscard]] rigor::IntervalVector<3> slew_direction() const;
 
+  [[nodiscard]] const rigor::IntervalMatrix<3>& frame() const { return frame_; }  ///< C
+  [[nodiscard]] const LockProblem& problem() const { return problem_; }
   /// An upper bound on what noise and slew add to |e| in a block. Needs the upward mode.
   [[nodiscard]] rigor::Interval disturbance() const;
   /// An upper bound on |e| of all errors with |z_i| <= bounds_i.
@@ -85,17 +113,24 @@ class LockFrame {
   LockFrame() = default;
   /// (x1 error, phase error, offset error, offset, amplitude).
   using Cell = rigor::IntervalVector<5>;
-  [[nodiscard]] bool is_outside(const Cell& cell, double radius) const;
+  [[nodiscard]] bool is_outside(const Cell& cell, const ErrorSet& errors) const;
+  struct NextBounds {
+    double above, below;
+  };
   /// The effect of a block over a cell, in the frame: X is `centre` plus or minus up to `spread`, `step` is F
   /// (I - centre secant), J = factor factor'.
   struct BlockOverCell {
     rigor::IntervalMatrix<3> centre, spread, secant, factor, step;
   };
-  /// Empty unless the covariances stay between their bounds.
-  [[nodiscard]] std::optional<BlockOverCell> block_over(const Cell& cell) const;
+  /// Empty unless the next covariances are between `next`'s bounds.
+  [[nodiscard]] std::optional<BlockOverCell> block_over(const Cell& cell, const NextBounds& next) const;
+  [[nodiscard]] std::optional<BlockOverCell> block_over(const Cell& cell) const {
+    return block_over(cell, {set_.above, set_.below});
+  }
+  [[nodiscard]] bool is_late_over(const Cell& cell, const LateStage& stage) const;
   [[nodiscard]] bool falls_over(const Cell& cell, const LockRate& rate) const;
   [[nodiscard]] bool drifts_over(const Cell& cell, const LockDrift& drift) const;
-  [[nodiscard]] bool verify_cells(double radius, std::int64_t most_cells,
+  [[nodiscard]] bool verify_cells(const ErrorSet& errors, std::int64_t most_cells,
                                   const std::function<bool(const Cell&)>& is_verified) const;
   /// F P F'
   [[nodiscard]] rigor::IntervalMatrix<3> moved(const rigor::IntervalMatrix<3>& p) const {

@@ -1,21 +1,43 @@
 #include "checker/dft_block/bounded_lock_check.hpp"
 
+#include <algorithm>
+#include <string>
+
+#include "checker/dft_block/late_errors.hpp"
 #include "checker/document/evidence.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-/// The proposal of the evidence "lock".
+/// The proposal of the evidence "lock", and of those of the stages.
 struct Proposal {
   BlockSet set;
   BlockRate rate;
-  std::optional<BlockRate> late;
+  std::vector<BlockStage> stages;
 };
 
-BlockRate read_rate(const Tree& numbers, const std::string& prefix) {
-  return {exact_number(numbers.at(prefix + "radius")), exact_number(numbers.at(prefix + "rate")),
-          exact_number(numbers.at(prefix + "weight"))};
+BlockStage read_stage(const Tree& evidence, const BlockSet& set) {
+  const Tree& numbers = evidence.at("numbers");
+  const Tree& matrices = evidence.at("matrices");
+  return {{set.frame, exact_number(numbers.at("above")), exact_number(numbers.at("below")), set.floor},
+          {exact_number(numbers.at("radius")),
+           {exact_number(numbers.at("limit_1")), exact_number(numbers.at("limit_2")),
+            exact_number(numbers.at("limit_3"))}},
+          exact_number(numbers.at("next_above")),
+          exact_number(numbers.at("next_below")),
+          exact_number(numbers.at("noise_weight")),
+          exact_matrix(matrices.at("reference")),
+          exact_matrix(matrices.at("excess")),
+          exact_matrix(matrices.at("noise"))};
+}
+
+bool is_stage(const BlockStage& stage) {
+  return certainly_positive(stage.errors.radius) &&
+         std::ranges::all_of(stage.errors.limits, [](const Ball& x) { return certainly_positive(x); }) &&
+         certainly_at_most(one, stage.next_above) && certainly_less(stage.next_above, stage.set.above) &&
+         certainly_at_most(one, stage.next_below) && certainly_less(stage.next_below, stage.set.below) &&
+         certainly_positive(stage.noise_weight) && symmetric(stage.noise);
 }
 
 bool is_rate(const BlockRate& rate) {
@@ -30,40 +52,34 @@ Ball rest(const Ball& disturbance, const BlockRate& rate) {
 
 /// Empty for evidence without a proposal.
 std::optional<Proposal> read_proposal(const Tree& derivation, Objections& objections) {
+  const auto& all = derivation.at("evidence").elements();
   const Tree* evidence = find_evidence(derivation, "lock");
-  if (evidence == nullptr || derivation.at("evidence").elements().size() != 1) {
-    objections.emplace_back("the evidence is not \"lock\" alone");
+  if (evidence == nullptr) {
+    objections.emplace_back("there is no evidence \"lock\"");
     return std::nullopt;
   }
   const Tree& numbers = evidence->at("numbers");
   Proposal found{{exact_matrix(evidence->at("matrices").at("frame")), exact_number(numbers.at("above")),
                   exact_number(numbers.at("below")), exact_number(numbers.at("floor"))},
-                 read_rate(numbers, ""),
-                 std::nullopt};
-  if (numbers.find("late_radius") != nullptr) {
-    found.late = read_rate(numbers, "late_");
+                 {exact_number(numbers.at("radius")), exact_number(numbers.at("rate")),
+                  exact_number(numbers.at("weight"))},
+                 {}};
+  bool are_stages = true;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const Tree* stage = find_evidence(derivation, "late-" + std::to_string(i));
+    if (stage == nullptr) {
+      objections.emplace_back("the evidence is not \"lock\" and stages late-1, late-2, ...");
+      return std::nullopt;
+    }
+    found.stages.push_back(read_stage(*stage, found.set));
+    are_stages = are_stages && is_stage(found.stages.back());
   }
   if (!certainly_at_most(one, found.set.above) || !certainly_at_most(one, found.set.below) ||
-      !is_rate(found.rate) || (found.late && !is_rate(*found.late))) {
+      !is_rate(found.rate) || !are_stages) {
     objections.emplace_back("the evidence is no set");
     return std::nullopt;
   }
   return found;
-}
-
-/// The first block from which |C^-1 z| is at most that for ever.
-std::optional<Ball> blocks_until(const Ball& length, const Ball& start, const Ball& disturbance,
-                                 const BlockRate& rate, const std::optional<BlockRate>& late) {
-  Ball e = start;
-  constexpr int kMost = 100'000;
-  for (int block = 1; block < kMost; ++block) {
-    const BlockRate& now = late && certainly_at_most(e, late->radius) ? *late : rate;
-    if (certainly_at_most(rest(disturbance, now), length) && certainly_at_most(e, length)) {
-      return Ball(static_cast<double>(block));
-    }
-    e = (now.rate * e + disturbance).upper();
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -98,15 +114,10 @@ Derivation lock_set(const Tree& derivation, const BlockProblem& problem, const B
   if (!falls || !tolerates) {
     return found;
   }
-  std::optional<BlockRate> late;
-  if (proposal->late) {
-    // Every error comes below its radius, and stays there.
-    if (certainly_less(resting, proposal->late->radius) &&
-        certainly_at_most(rest(disturbance, *proposal->late), proposal->late->radius) &&
-        lock.falls(*proposal->late, cells)) {
-      late = proposal->late;
-    } else {
-      objections.emplace_back("the late set is not verified");
+  for (const BlockStage& stage : proposal->stages) {
+    if (!BlockLock(problem, stage.set).stays_near(stage, cells)) {
+      objections.emplace_back("a late stage is not verified");
+      return found;
     }
   }
   if (!starts) {
@@ -120,15 +131,23 @@ Derivation lock_set(const Tree& derivation, const BlockProblem& problem, const B
   add("offset_error_bound", ever * lock.reach(2));
   add("phase_error_bound", ever * lock.reach(1));
   add("amplitude_error_bound", ever * lock.reach(0));
-  const Ball last = late ? rest(disturbance, *late) : resting;
-  add("ultimate_offset_error", last * lock.reach(2));
+  bool all_reached = false;
+  const BlockErrors errors = block_errors(lock, {proposal->rate, proposal->stages, start}, all_reached);
+  if (!all_reached) {
+    objections.emplace_back("errors need not come to a late stage");
+  }
+  add("ultimate_offset_error", errors.ultimate);
   const Tree* blocks = derivation.at("quantities").find("settling_blocks");
   const Tree* settled = derivation.at("quantities").find("settled_offset_error");
   if (blocks != nullptr && settled != nullptr) {
     const Ball error = high_of(*settled);
-    const auto block = blocks_until(error / lock.reach(2), start, disturbance, proposal->rate, late);
-    add("settling_blocks", block ? *block : Ball::everything());
-    add("settled_offset_error", block ? error : Ball::everything());
+    std::size_t block = 0;
+    while (block < errors.offset.size() && !certainly_at_most(errors.offset[block], error)) {
+      ++block;
+    }
+    const bool has_settled = block < errors.offset.size();
+    add("settling_blocks", has_settled ? Ball(static_cast<double>(block + 1)) : Ball::everything());
+    add("settled_offset_error", has_settled ? error : Ball::everything());
   }
   return found;
 }

@@ -22,6 +22,10 @@ std::pair<Ball, Ball> ratios(const Ball& x) {
   return {ratio + Ball::within(bend * away), half * at * square(half_ratio) + Ball::within(half * away)};
 }
 
+BlockErrorSet ball(const Ball& radius) {
+  return {radius, {radius, radius, radius}};
+}
+
 }  // namespace
 
 struct BlockLock::Cell {
@@ -85,12 +89,17 @@ bool BlockLock::holds(const Matrix3& covariance) const {
   return definite(identity(set_.above) - inside) && definite(inside - identity(one / set_.below));
 }
 
-bool BlockLock::is_outside(const Cell& cell, const Ball& radius) const {
+bool BlockLock::is_outside(const Cell& cell, const BlockErrorSet& errors) const {
   Ball sum = zero;
-  for (const auto& row : back_) {
-    sum += square(row[0] * cell.side(0) + row[1] * cell.side(1) + row[2] * cell.side(2));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Ball coordinate =
+        back_[i][0] * cell.side(0) + back_[i][1] * cell.side(1) + back_[i][2] * cell.side(2);
+    if (certainly_less(errors.limits[i], abs(coordinate))) {
+      return true;
+    }
+    sum += square(coordinate);
   }
-  return certainly_less(square(radius), sum);
+  return certainly_less(square(errors.radius), sum);
 }
 
 Matrix3 block_information(const MeetingSums& sums, const Ball& weight, const Ball& x) {
@@ -120,6 +129,11 @@ struct BlockLock::OverCell {
 };
 
 std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const TonePolynomial& tone) const {
+  return over(cell, tone, set_.above, set_.below);
+}
+
+std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const TonePolynomial& tone,
+                                                   const Ball& next_above, const Ball& next_below) const {
   const Ball first = cell.side(0);
   const Ball amplitude = cell.side(4);
   const Ball weight = square(amplitude) / (four * problem_.r);
@@ -149,8 +163,8 @@ std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const ToneP
   const Matrix3 high = inverse_near(information + identity(least));
   const Matrix3 low = inverse_near(information + identity(set_.below));
   const Matrix3 noise = process_noise(amplitude);
-  if (!definite(identity(set_.above) - noise - about(turn_, high)) ||
-      !definite(noise + about(turn_, low) - identity(one / set_.below))) {
+  if (!definite(identity(next_above) - noise - about(turn_, high)) ||
+      !definite(noise + about(turn_, low) - identity(one / next_below))) {
     return std::nullopt;
   }
   // high J = 1 - least high and low J = 1 - below low; high - low = high (below - least) low.
@@ -175,6 +189,30 @@ bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const Blo
       block->step, identity(one) - scaled(one / rate.weight, about(turn_, block->spread)));
 }
 
+bool BlockLock::stays_near_in(const Cell& cell, const TonePolynomial& tone, const BlockStage& stage) const {
+  const std::optional<OverCell> block = over(cell, tone, stage.next_above, stage.next_below);
+  if (!block) {
+    return false;
+  }
+  // X = centre + Y, -spread <= Y <= spread: |u'Y v|^2 <= u'spread u v'spread v.
+  const Matrix3 turned = about(turn_, block->spread);
+  const Matrix3 seen = about(transposed(block->secant), block->spread);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Ball uncertain = sqrt(abs(turned[i][i]) * abs(seen[j][j]));
+      if (!certainly_at_most(abs(block->step[i][j] - stage.reference[i][j]) + uncertain,
+                             stage.excess[i][j])) {
+        return false;
+      }
+    }
+  }
+  const Matrix3 lost = about(transposed(block->factor), block->spread);
+  const Ball trace = abs(lost[0][0]) + abs(lost[1][1]) + abs(lost[2][2]);
+  return definite(stage.noise -
+                  scaled(one + stage.noise_weight, product(block->gain, transposed(block->gain))) -
+                  scaled((one + one / stage.noise_weight) * trace, turned));
+}
+
 bool BlockLock::drifts_in(const Cell& cell, const TonePolynomial& tone, const BlockDrift& drift) const {
   const std::optional<OverCell> block = over(cell, tone);
   if (!block) {
@@ -196,20 +234,24 @@ bool BlockLock::drifts_in(const Cell& cell, const TonePolynomial& tone, const Bl
       unit - scaled(drift.weight, seen));
 }
 
-bool BlockLock::true_near(const Ball& low, const Ball& high, const Ball& radius, const InCell& is_true,
-                          std::int64_t& cells) const {
+bool BlockLock::true_near(const Ball& low, const Ball& high, const BlockErrorSet& errors,
+                          const InCell& is_true, std::int64_t& cells) const {
   const Ball middle = (half * (low + high)).middle();
   const TonePolynomial tone(middle, problem_.half_width);
   Cell whole;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Ball side = (radius * reach(i)).upper();
+    Ball side = zero;
+    for (std::size_t j = 0; j < 3; ++j) {
+      side += abs(set_.frame[i][j]) * errors.limits[j];
+    }
+    side = min(errors.radius * reach(i), side).upper();
     whole.sides[i] = {-side, side};
   }
   whole.sides[3] = {(low - middle).lower(), (high - middle).upper()};
   whole.sides[4] = {problem_.amplitude_low.lower(), problem_.amplitude_high.upper()};
   const double amplitude = problem_.amplitude_low.lower_double();
   // Proposals for the direction in which the information changes most.
-  const std::array weights{4.0, 0.5, 1.3, 1.3, 2.0 / amplitude};
+  const std::array weights{2.0, 0.15, 1.3, 1.3, 2.0 / amplitude};
   std::vector<Cell> open{whole};
   constexpr std::int64_t kMost = 400'000;
   while (!open.empty()) {
@@ -218,7 +260,7 @@ bool BlockLock::true_near(const Ball& low, const Ball& high, const Ball& radius,
     if (++cells > kMost) {
       return false;
     }
-    if (is_outside(cell, radius) || is_true(cell, tone)) {
+    if (is_outside(cell, errors) || is_true(cell, tone)) {
       continue;
     }
     std::size_t widest = 0;
@@ -245,17 +287,24 @@ bool BlockLock::true_near(const Ball& low, const Ball& high, const Ball& radius,
 
 bool BlockLock::falls(const BlockRate& rate, std::int64_t& cells) const {
   return true_everywhere(
-      rate.radius, [&](const Cell& cell, const TonePolynomial& tone) { return falls_in(cell, tone, rate); },
-      cells);
+      ball(rate.radius),
+      [&](const Cell& cell, const TonePolynomial& tone) { return falls_in(cell, tone, rate); }, cells);
+}
+
+bool BlockLock::stays_near(const BlockStage& stage, std::int64_t& cells) const {
+  return true_everywhere(
+      stage.errors,
+      [&](const Cell& cell, const TonePolynomial& tone) { return stays_near_in(cell, tone, stage); }, cells);
 }
 
 bool BlockLock::drifts(const BlockDrift& drift, std::int64_t& cells) const {
   return true_everywhere(
-      drift.radius,
+      ball(drift.radius),
       [&](const Cell& cell, const TonePolynomial& tone) { return drifts_in(cell, tone, drift); }, cells);
 }
 
-bool BlockLock::true_everywhere(const Ball& radius, const InCell& is_true, std::int64_t& cells) const {
+bool BlockLock::true_everywhere(const BlockErrorSet& errors, const InCell& is_true,
+                                std::int64_t& cells) const {
   // The band in pieces of a few hundredths of a bin.
   const double low = problem_.offset_low.lower_double();
   const double high = problem_.offset_high.upper_double();
@@ -275,7 +324,7 @@ bool BlockLock::true_everywhere(const Ball& radius, const InCell& is_true, std::
   };
   std::vector<std::int64_t> counts(count, 0);
   const bool all = first_failure(count, [&](std::size_t i) {
-                     return true_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), radius,
+                     return true_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), errors,
                                       is_true, counts[i]);
                    }) == count;
   for (const std::int64_t one_count : counts) {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <complex>
 #include <span>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "analysis/dft_block/tone_sums.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "tests/analysis/dft_block/tones.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/dft_block/dft_block_ekf.hpp"
 
@@ -21,22 +21,10 @@ namespace {
 using namespace veritrack;
 using dft_block::LockProblem;
 using rigor::Interval;
+using test::kPi;
+using test::lock_problem;
 using test::Random;
-
-constexpr double kPi = 3.141592653589793;
-
-/// Set 1 of the thesis, in a narrow band.
-LockProblem lock_problem(double low, double high, double noise, double slew) {
-  return {Interval(5e-5),
-          Interval(1e-3),
-          Interval(2.5e-3),
-          Interval(12.5 / 4096.0),
-          2,
-          Interval(1.0),
-          Interval::from_bounds(low, high),
-          Interval(noise),
-          Interval(slew)};
-}
+using test::tone_bins;
 
 /// (-1)^m sinc(m + x) by its definition.
 double tap(int m, double x) {
@@ -47,21 +35,6 @@ double tap(int m, double x) {
 double tap_slope(int m, double x) {
   constexpr double kStep = 1e-5;
   return (tap(m, x + kStep) - tap(m, x - kStep)) / (2.0 * kStep);
-}
-
-/// The bins of a tone by (4.9), with complex numbers.
-std::vector<trackers::DftBin<double>> tone_bins(double amplitude, double phase, double offset,
-                                                int half_width) {
-  std::vector<trackers::DftBin<double>> bins;
-  for (int m = -half_width; m <= half_width; ++m) {
-    const std::complex<double> j(0.0, 1.0);
-    const double d = offset - m;
-    const std::complex<double> bin =
-        amplitude / (4.0 * kPi) * std::exp(j * phase) *
-        (std::fabs(d) < 1e-9 ? 2.0 * kPi : (std::exp(2.0 * kPi * j * offset) - 1.0) / (j * d));
-    bins.push_back({bin.real(), bin.imag()});
-  }
-  return bins;
 }
 
 TEST_CASE("sums of the bins over a cell hold those of its points") {

@@ -29,5 +29,5 @@ TEST_CASE("an offset error once settled is named where it is less than that of e
   // 0.00999 bins once settled, by this certificate, which says nothing beside 0.00751 bins in every block.
   CHECK(guarantee_of("dft-block.json") ==
         "the offset error of every estimate and prediction is at most 0.00751 bins, and in the long run at "
-        "most 0.00358 bins.");
+        "most 0.00118 bins.");
 }

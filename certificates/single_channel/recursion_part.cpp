@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "certificates/design/design_reader.hpp"
+#include "certificates/model/model_sets.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/single_channel/single_channel.hpp"
 
@@ -104,6 +105,31 @@ void decide(Certificate& certificate, const Certificate& recursion, const SameCl
   here->values = {{"by", "recursion"}};
 }
 
+/// Under the assumed noise and slew; empty where the recursion is refused or has no steady state.
+std::optional<model::LinearWorstCase> first_order_error(const SingleChannelEkfTables& tables) {
+  const Assumptions& assume = tables.assume;
+  try {
+    const Design recursion = read_design(recursion_design_text(tables, {}), "recursion");
+    const ModelTables& written = model_tables(recursion);
+    const model::TrackedTone tone =
+        proposed_tone(make_model(written.model, written.assume.signal), written.assume);
+    std::optional<model::LinearWorstCase> worst;
+    constexpr int kFrequencies = 5;
+    const auto& [low, high] = assume.frequency;
+    for (int i = 0; i < kFrequencies; ++i) {
+      const double share = (i + 0.5) / kFrequencies;
+      const auto here = model::linear_worst_case(tone, low.nearest + share * (high.nearest - low.nearest),
+                                                 assume.noise.nearest, assume.slew.nearest);
+      if (here && (!worst || here->disturbed > worst->disturbed)) {
+        worst = here;
+      }
+    }
+    return worst;
+  } catch (const InputError&) {  // a number that formulas write differently
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::string recursion_design_text(const SingleChannelEkfTables& tables, const RecursionQuestion& question) {
@@ -153,6 +179,9 @@ noise = {}
 void add_recursion(Certificate& certificate, const CertifyProgress& progress) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   RecursionPart part;
+  if (certificate.extent == Extent::everything && proved_long_run(certificate)) {
+    part.linear = first_order_error(tables);
+  }
   const auto& radius = tables.require.frequency_error_radius_at_least;
   RecursionQuestion question;
   question.largest_noise = is_open(certificate, kLargestNoise);
@@ -189,6 +218,15 @@ void add_recursion(Certificate& certificate, const CertifyProgress& progress) {
     conclude_requirements(certificate);
   }
   certificate.particulars = std::move(part);
+}
+
+std::optional<rigor::Interval> proved_long_run(const Certificate& certificate) {
+  const theorems::Derivation* contraction = find_derivation(certificate, "contraction");
+  if (contraction == nullptr || contraction->verdict != Verdict::proved) {
+    return std::nullopt;
+  }
+  const theorems::Quantity* bound = theorems::applicable_quantity(*contraction, "ultimate_frequency_error");
+  return bound != nullptr ? std::optional(bound->value) : std::nullopt;
 }
 
 const RecursionPart& recursion_part(const Certificate& certificate) {

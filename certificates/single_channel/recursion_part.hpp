@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/model/steady_state/linear_worst_case.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 
@@ -14,6 +15,9 @@ namespace veritrack::certificates {
 struct RecursionPart {
   std::optional<Certificate> certificate;  ///< empty where nothing was searched for
   std::string objection;                   ///< then the reason, as a sentence
+  /// The error in the long run to first order, at the worst of some frequencies of the band; empty where no
+  /// bound is proved, or no steady state was found.
+  std::optional<model::LinearWorstCase> linear;
 };
 
 /// The requirements of this design that the recursion's own [require] repeats.
@@ -31,6 +35,9 @@ struct RecursionQuestion {
 /// Certifies the recursion where it can decide a requirement that is still open, and adds its further
 /// statements as claims "recursion/...". Needs the upward mode; call when every other claim is there.
 void add_recursion(Certificate& certificate, const CertifyProgress& progress);
+
+/// The bound on the frequency error in the long run that the windows prove; empty where they prove none.
+[[nodiscard]] std::optional<rigor::Interval> proved_long_run(const Certificate& certificate);
 
 [[nodiscard]] const RecursionPart& recursion_part(const Certificate& certificate);
 

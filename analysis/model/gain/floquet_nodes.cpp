@@ -137,6 +137,35 @@ class Refinement {
     }
   }
 
+  /// Scales what decays faster by a function of the phase, so that the factor of a sample varies less: it may
+  /// be 1 at some phases (of a filter's covariance, where the sample tells nothing of the parameter). Only as
+  /// far as the scale itself varies little.
+  void even_out_fast() {
+    constexpr int kHarmonics = 8;
+    constexpr double kMost = 1.2;  // of the scale's logarithm
+    const Index fast = n_ - m_;
+    if (fast == 0) {
+      return;
+    }
+    look();
+    Eigen::MatrixXd rates(1, grid_->size());
+    for (int j = 0; j < grid_->size(); ++j) {
+      const auto factor = matrix_at(seen_, j, n_).bottomRightCorner(fast, fast);
+      rates(0, j) = std::log(std::max(factor.cwiseAbs().rowwise().sum().maxCoeff(), 1e-3));
+    }
+    // g(phi + omega) - g(phi) = rate - mean.
+    Eigen::MatrixXcd waves = harmonics_of(rates, kHarmonics);
+    waves(0, 0) = 0.0;
+    for (int h = 1; h <= kHarmonics; ++h) {
+      waves(0, h) /= std::polar(1.0, h * omega_) - 1.0;
+    }
+    const Eigen::MatrixXd logarithm = on_grid(waves, *grid_);
+    const double share = std::min(1.0, kMost / logarithm.cwiseAbs().maxCoeff());
+    for (int j = 0; j < grid_->size(); ++j) {
+      matrix_at(basis_.values, j, n_).rightCols(fast) *= std::exp(share * logarithm(0, j));
+    }
+  }
+
   /// Makes it depend on the frequency smoothly: the mean of reference^-1 P has the unit matrix in the block
   /// of each group, and that of the others is the unit matrix at every phase.
   void normalise(const FloquetBasis& reference) {
@@ -338,6 +367,7 @@ std::optional<std::vector<FloquetNode>> floquet_nodes(const TrackedTone& tone,
   if (gauge == FloquetGauge::by_mode) {
     reference.even_out_pairs();
   }
+  reference.even_out_fast();
   std::vector<FloquetNode> nodes(curves.size());
   nodes[middle] = reference.node();
   FloquetBasis nearest = reference.basis();

@@ -136,10 +136,15 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
   const double fine = with_slew ? 0.1 : 0.06;
   constexpr double kBetter = 0.9;
   constexpr double kNear = 1.03;
+  constexpr double kSteady = 0x1p-19;  // rad/sample: the steady state is known to this, or phases are too few
   double last_gain = INFINITY;
   for (std::size_t parts = fewest_parts; parts <= most_parts; parts *= 2) {
     const PhaseGridding before = std::exchange(gridding_, {gridding_.phases, gridding_.horizon, parts});
     auto gains = gains_of(0, with_slew);
+    const auto still = gains ? gains->errors({}) : std::nullopt;
+    if (!still || !(rigor::radius(still->mean) < kSteady)) {
+      gains.reset();
+    }
     const double missed = gains ? gains->missed_share() : INFINITY;
     const double gain = gains ? gains->largest_gain() : INFINITY;
     if (!(missed < kBetter * best.missed) && last_gain < kNear * gain && std::isfinite(best.missed)) {

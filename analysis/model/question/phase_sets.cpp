@@ -169,9 +169,9 @@ class PhaseSets {
     return true;
   }
 
-  /// What comes of how far the curve is from a steady state: that is rounding, of which the bounds of two
-  /// programs may differ by as much.
-  [[nodiscard]] double of_rounding() const { return std::max(0.0, still_->for_ever - still_->bias); }
+  /// What comes of how far the curve is from a steady state: rounding, and remainders over cells of phases.
+  /// The bounds of two programs may differ by twice as much.
+  [[nodiscard]] double of_rounding() const { return 2.0 * std::max(0.0, still_->for_ever - still_->bias); }
   [[nodiscard]] double claimed(double bound) const { return rigor::add_up(with_room(bound), of_rounding()); }
 
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance,

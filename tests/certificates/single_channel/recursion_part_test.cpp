@@ -14,6 +14,7 @@
 #include "certificates/document/json.hpp"
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/model/model.hpp"
+#include "certificates/single_channel/markdown_single_channel.hpp"
 #include "certificates/single_channel/single_channel.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
@@ -24,12 +25,12 @@ namespace {
 
 using rigor::Verdict;
 
-Design design_of(const std::string& chosen, const std::string& assume, const std::string& require = "") {
+Design design_of(const std::string& chosen, const std::string& assume, const std::string& require = "",
+                 const std::string& off = "0.01") {
   return read_design("name = \"a design\"\ntracker = \"single-channel-ekf\"\n[design]\n" + chosen +
-                         "\n[assume]\n" + assume +
-                         "\ninitial_frequency_error = 0.01\ninitial_phase_error = 0.01\n"
-                         "initial_amplitude_error = 0.01\n[require]\n" +
-                         require + "\n[simulate]\nsamples = 10\n",
+                         "\n[assume]\n" + assume + "\ninitial_frequency_error = " + off +
+                         "\ninitial_phase_error = " + off + "\ninitial_amplitude_error = " + off +
+                         "\n[require]\n" + require + "\n[simulate]\nsamples = 10\n",
                      "d.toml");
 }
 
@@ -150,6 +151,26 @@ TEST_CASE("nothing is looked for where there is nothing to find, or nothing open
       CHECK(recursion_part(certificate).objection.empty());
       CHECK(certificate.claims.size() == 1);
     }
+  }
+}
+
+TEST_CASE("a bound of the long run is compared with the error to first order, which is not above it") {
+  const std::string assume = "frequency = [1.4, 1.6]\nnoise = 0.001\nslew = ";
+  const std::string text = "q = 0.005\nr = 0.01\nprocess_noise = \"identity\"";
+  for (const char* slew : {"0", "0.00001"}) {
+    CAPTURE(slew);
+    const Certificate certificate =
+        certify(design_of(text, assume + slew, "", "0.001"), "d.toml", text, {}, Extent::everything);
+    const auto bound = proved_long_run(certificate);
+    const auto& linear = recursion_part(certificate).linear;
+    REQUIRE(bound);
+    REQUIRE(linear);
+    CHECK(linear->disturbed <= bound->upper());
+    CHECK(linear->disturbed >= bound->upper() / 10.0);
+    const std::string document = recursion_section(certificate);
+    CHECK(document.find("to first order in the errors") != std::string::npos);
+    // The recursion has no slew: no advice that does not help.
+    CHECK((document.find("largest_noise_at_least") != std::string::npos) == (slew[1] == '\0'));
   }
 }
 

@@ -1,0 +1,80 @@
+#include "analysis/model/gain/basis_inverse.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "analysis/rigor/rounding.hpp"
+#include "tests/support/random.hpp"
+
+namespace {
+
+using namespace veritrack;
+using rigor::BallModel;
+
+constexpr int kSize = 3;
+
+/// Entries middle + lean z, in units that differ from row to row and from column to column.
+struct Family {
+  Eigen::Matrix3d middle, lean;
+
+  [[nodiscard]] std::vector<BallModel> models() const {
+    std::vector<BallModel> all;
+    for (int i = 0; i < kSize * kSize; ++i) {
+      all.push_back(BallModel(middle(i / kSize, i % kSize)) +
+                    BallModel(lean(i / kSize, i % kSize)) * BallModel::z());
+    }
+    return all;
+  }
+};
+
+Family random_family(test::Random& random) {
+  Family family;
+  const auto unit = [&] { return std::pow(10.0, random.uniform(-4.0, 4.0)); };
+  const std::array rows{unit(), unit(), unit()};
+  const std::array columns{unit(), unit(), unit()};
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j < kSize; ++j) {
+      const double size = rows.at(static_cast<std::size_t>(i)) * columns.at(static_cast<std::size_t>(j));
+      family.middle(i, j) = size * random.uniform(-1.0, 1.0);
+      family.lean(i, j) = size * random.uniform(-0.01, 0.01);
+    }
+  }
+  return family;
+}
+
+TEST_CASE("solutions lie in their ranges, whatever the units of rows and columns are") {
+  test::Random random(37'011);
+  const rigor::BallModelScope scope(0, 0);
+  int known = 0;
+  const std::int64_t cases = test::effort(300);
+  for (std::int64_t trial = 0; trial < cases; ++trial) {
+    const Family family = random_family(random);
+    std::vector<BallModel> side(kSize);
+    {
+      const rigor::UpwardRounding upward;
+      for (int i = 0; i < kSize; ++i) {
+        side[static_cast<std::size_t>(i)] = BallModel(family.middle(i, 0));
+      }
+      model::solve_in_basis(family.models(), {&side});
+    }
+    bool is_known = true;
+    for (int i = 0; i < kSize; ++i) {
+      const rigor::Interval range = side[static_cast<std::size_t>(i)].range();
+      is_known = is_known && !is_empty(range);
+      for (const double z : {-1.0, -0.3, 0.0, 1.0}) {
+        const Eigen::Matrix3d there = family.middle + z * family.lean;
+        const double exact = there.fullPivLu().solve(family.middle.col(0))(i);
+        const double room = 1e-7 * (std::fabs(exact) + std::fabs(rigor::midpoint(range)));
+        CHECK((is_empty(range) || (range.lower() - room <= exact && exact <= range.upper() + room)));
+      }
+    }
+    known += is_known ? 1 : 0;
+  }
+  CHECK(known > 9 * cases / 10);
+}
+
+}  // namespace

@@ -152,7 +152,7 @@ std::string single_channel_remarks(const Certificate& certificate) {
 
 std::string recursion_section(const Certificate& certificate) {
   const auto& [recursion, objection, linear] = recursion_part(certificate);
-  const std::string comparison = linear ? first_order_comparison(certificate, *linear) : "";
+  std::string comparison = linear ? first_order_comparison(certificate, *linear) : "";
   if (!recursion && objection.empty()) {
     return comparison;
   }

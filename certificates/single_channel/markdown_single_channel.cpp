@@ -91,17 +91,17 @@ std::string process_noise_words(const SingleChannelDesignTable& design) {
 }
 
 /// How near the bound of the long run is, and what brings it nearer.
-std::string first_order_comparison(const Certificate& certificate, const model::LinearWorstCase& linear) {
+std::string first_order_comparison(const Certificate& certificate, double first_order) {
   const double bound = proved_long_run(certificate)->upper();
-  const double times = bound / linear.disturbed;
-  if (!(linear.disturbed > 0.0) || !std::isfinite(times)) {
+  const double times = bound / first_order;
+  if (!(first_order > 0.0) || !std::isfinite(times)) {
     return "";
   }
   std::string text = fmt::format(
       "*Computed, not proved:* to first order in the errors, the assumed noise and slew bring the frequency "
       "error in the long run to about {:.3g} rad/sample at worst (5 frequencies of the band, 48 phases). The "
       "certified bound is {:.1f} times as large.",
-      linear.disturbed, times);
+      first_order, times);
   constexpr double kNear = 2.0;
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   if (times > kNear && tables.assume.slew.value == Interval(0.0) &&
@@ -151,8 +151,8 @@ std::string single_channel_remarks(const Certificate& certificate) {
 }
 
 std::string recursion_section(const Certificate& certificate) {
-  const auto& [recursion, objection, linear] = recursion_part(certificate);
-  std::string comparison = linear ? first_order_comparison(certificate, *linear) : "";
+  const auto& [recursion, objection, first_order] = recursion_part(certificate);
+  std::string comparison = first_order ? first_order_comparison(certificate, *first_order) : "";
   if (!recursion && objection.empty()) {
     return comparison;
   }

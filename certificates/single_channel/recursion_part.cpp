@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/single_channel/first_order_error.hpp"
 #include "certificates/design/design_reader.hpp"
-#include "certificates/model/model_sets.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/single_channel/single_channel.hpp"
 
@@ -105,29 +105,22 @@ void decide(Certificate& certificate, const Certificate& recursion, const SameCl
   here->values = {{"by", "recursion"}};
 }
 
-/// Under the assumed noise and slew; empty where the recursion is refused or has no steady state.
-std::optional<model::LinearWorstCase> first_order_error(const SingleChannelEkfTables& tables) {
+/// At the worst of some frequencies of the band.
+double first_order_over_band(const SingleChannelEkfTables& tables) {
   const Assumptions& assume = tables.assume;
-  try {
-    const Design recursion = read_design(recursion_design_text(tables, {}), "recursion");
-    const ModelTables& written = model_tables(recursion);
-    const model::TrackedTone tone =
-        proposed_tone(make_model(written.model, written.assume.signal), written.assume);
-    std::optional<model::LinearWorstCase> worst;
-    constexpr int kFrequencies = 5;
-    const auto& [low, high] = assume.frequency;
-    for (int i = 0; i < kFrequencies; ++i) {
-      const double share = (i + 0.5) / kFrequencies;
-      const auto here = model::linear_worst_case(tone, low.nearest + share * (high.nearest - low.nearest),
-                                                 assume.noise.nearest, assume.slew.nearest);
-      if (here && (!worst || here->disturbed > worst->disturbed)) {
-        worst = here;
-      }
-    }
-    return worst;
-  } catch (const InputError&) {  // a number that formulas write differently
-    return std::nullopt;
+  const double amplitude = assume.amplitude.nearest;
+  const trackers::ToneModel<double> design =
+      trackers::at_unit_amplitude(nearest_values(tables.design), amplitude);
+  constexpr int kFrequencies = 5;
+  double worst = 0.0;
+  for (int i = 0; i < kFrequencies; ++i) {
+    const double share = (i + 0.5) / kFrequencies;
+    const double frequency =
+        assume.frequency[0].nearest + share * (assume.frequency[1].nearest - assume.frequency[0].nearest);
+    worst = std::max(worst, single_channel::first_order_error(
+                                design, frequency, assume.noise.nearest / amplitude, assume.slew.nearest));
   }
+  return worst;
 }
 
 }  // namespace
@@ -180,7 +173,7 @@ void add_recursion(Certificate& certificate, const CertifyProgress& progress) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   RecursionPart part;
   if (certificate.extent == Extent::everything && proved_long_run(certificate)) {
-    part.linear = first_order_error(tables);
+    part.first_order_error = first_order_over_band(tables);
   }
   const auto& radius = tables.require.frequency_error_radius_at_least;
   RecursionQuestion question;

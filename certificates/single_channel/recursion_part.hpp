@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "analysis/model/steady_state/linear_worst_case.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 
@@ -15,9 +14,9 @@ namespace veritrack::certificates {
 struct RecursionPart {
   std::optional<Certificate> certificate;  ///< empty where nothing was searched for
   std::string objection;                   ///< then the reason, as a sentence
-  /// The error in the long run to first order, at the worst of some frequencies of the band; empty where no
-  /// bound is proved, or no steady state was found.
-  std::optional<model::LinearWorstCase> linear;
+  /// In the long run, rad/sample, at the worst of some frequencies of the band; empty where no bound is
+  /// proved.
+  std::optional<double> first_order_error;
 };
 
 /// The requirements of this design that the recursion's own [require] repeats.

@@ -127,7 +127,7 @@ fuzz:
 # Each guard of analysis/ and checker/ made true, to see whether a test of its room notices. Some hours on two cores.
 MUTATION_EFFORT ?= 0.4
 MUTATION_ROOMS  ?= analysis checker
-# K/N: every N-th guard from the K-th on. All take hours; .ci/nightly takes other ones each time.
+# K/N: every N-th guard from the K-th on. All take hours; .ci/nightly takes every eighth.
 MUTATION_PART   ?= 0/1
 
 mutation:

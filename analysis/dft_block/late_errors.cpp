@@ -14,13 +14,14 @@ using Rows = rigor::IntervalMatrix<4, 3>;
 constexpr int kMostBlocks = 100'000;
 constexpr int kMostStageBlocks = 400;
 
-/// Where a bound ends that improves by less than a millionth in a block.
+/// By a millionth of it at least.
 bool still_improves(const Interval& before, const Interval& after) {
   constexpr double kShare = 1.0 - 1e-6;
   return rigor::certainly_less(after, Interval(kShare) * before);
 }
 
-/// The blocks until a bound that each block multiplies by next/goal at least is at most `goal`.
+/// The blocks until a bound is at most `goal`, where each block multiplies it by next/goal or less; negative:
+/// too many.
 int blocks_to_fall(double bound, double goal, double next) {
   const Interval factor = Interval(next) / Interval(goal);
   Interval now(bound);

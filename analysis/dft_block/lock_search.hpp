@@ -37,7 +37,7 @@ class LockSearch {
   /// The best growth for that tilt, and a floor, a little worse than those of samples; empty unless the
   /// growth is below 1.
   [[nodiscard]] std::optional<LockDrift> drift_for(const LockBounds& set, double radius, double tilt) const;
-  /// A block of an extreme amplitude from an error with C^-1 z = direction: X between the set's bounds.
+  /// A block of a tone of that amplitude from an error with C^-1 z = direction: X between the set's bounds.
   [[nodiscard]] BlockSample sample_at(const LockBounds& set, double amplitude,
                                       const rigor::Vector<3>& direction, double offset) const;
   /// Blocks from `directions` errors at the border, and at `inner` of that unless it is 0, at `offsets` + 1

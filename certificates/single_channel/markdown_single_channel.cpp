@@ -9,6 +9,7 @@
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/tracker_kind.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "certificates/single_channel/recursion_part.hpp"
 #include "certificates/single_channel/single_channel.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
@@ -97,15 +98,15 @@ std::string first_order_comparison(const Certificate& certificate, double first_
   if (!(first_order > 0.0) || !std::isfinite(times)) {
     return "";
   }
+  const FrequencyUnits units(single_channel_tables(certificate.design).assume.sample_rate);
   std::string text = fmt::format(
       "*Computed, not proved:* to first order in the errors, the assumed noise and slew bring the frequency "
-      "error in the long run to about {:.3g} rad/sample at worst (5 frequencies of the band, 48 phases). The "
+      "error in the long run to about {:.3g} rad/sample{} at worst (5 frequencies of the band, 48 phases). "
+      "The "
       "certified bound is {:.1f} times as large.",
-      first_order, times);
+      first_order, units.has_hertz() ? fmt::format(" ({:.3g} Hz)", units.drawn(first_order)) : "", times);
   constexpr double kNear = 2.0;
-  const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
-  if (times > kNear && tables.assume.slew.value == Interval(0.0) &&
-      !recursion_part(certificate).certificate) {
+  if (times > kNear && recursion_part(certificate).can_be_asked) {
     text +=
         " A tighter one, in exact arithmetic, is in the certificate of the same filter as a recursion: "
         "require `largest_noise_at_least`, a little more than is proved here. It takes half a minute for a "
@@ -151,8 +152,11 @@ std::string single_channel_remarks(const Certificate& certificate) {
 }
 
 std::string recursion_section(const Certificate& certificate) {
-  const auto& [recursion, objection, first_order] = recursion_part(certificate);
-  std::string comparison = first_order ? first_order_comparison(certificate, *first_order) : "";
+  const RecursionPart& part = recursion_part(certificate);
+  const std::optional<Certificate>& recursion = part.certificate;
+  const std::string& objection = part.objection;
+  std::string comparison =
+      part.first_order_error ? first_order_comparison(certificate, *part.first_order_error) : "";
   if (!recursion && objection.empty()) {
     return comparison;
   }

@@ -210,6 +210,8 @@ void add_recursion(Certificate& certificate, const CertifyProgress& progress) {
     decide(certificate, *part.certificate, kRadius);
     conclude_requirements(certificate);
   }
+  part.can_be_asked =
+      !part.certificate && tables.assume.slew.value == rigor::Interval(0.0) && objection_to(tables).empty();
   certificate.particulars = std::move(part);
 }
 

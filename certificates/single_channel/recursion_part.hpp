@@ -17,6 +17,7 @@ struct RecursionPart {
   /// In the long run, rad/sample, at the worst of some frequencies of the band; empty where no bound is
   /// proved.
   std::optional<double> first_order_error;
+  bool can_be_asked = false;  ///< there is none, and a requirement would have it searched for
 };
 
 /// The requirements of this design that the recursion's own [require] repeats.

@@ -174,6 +174,14 @@ TEST_CASE("a bound of the long run is compared with the error to first order, wh
   }
 }
 
+TEST_CASE("no recursion is offered where none would be looked for") {
+  const std::string text = "q = 0.005\nr = 0.01\nprocess_noise = \"identity\"";
+  const Certificate single = certify(design_of(text, "frequency = 1.5\nnoise = 0.001\nslew = 0", "", "0.001"),
+                                     "d.toml", text, {}, Extent::everything);
+  REQUIRE(recursion_part(single).first_order_error);
+  CHECK(recursion_section(single).find("largest_noise_at_least") == std::string::npos);
+}
+
 TEST_CASE("what the windows leave open is decided by the recursion" * doctest::test_suite("nightly")) {
   constexpr const char* kQuiet = "frequency = [1.5, 1.501]\nnoise = 0.003\nslew = 0";
   const std::string text = "q = 0.005\nr = 0.01\nprocess_noise = \"identity\"";

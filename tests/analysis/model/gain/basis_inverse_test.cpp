@@ -77,4 +77,18 @@ TEST_CASE("solutions lie in their ranges, whatever the units of rows and columns
   CHECK(known > 9 * cases / 10);
 }
 
+TEST_CASE("where each entry of the first column may be 0 another unknown is eliminated first") {
+  // z x + y = 1, (z - 1/2) x + y = 2 for all |z| <= 1: x = -2, y = 1 + 2 z.
+  const rigor::BallModelScope scope(0, 0);
+  const rigor::UpwardRounding upward;
+  std::vector<BallModel> side{BallModel(1.0), BallModel(2.0)};
+  const std::vector<BallModel> basis{BallModel::z(), BallModel(1.0), BallModel::z() - BallModel(0.5),
+                                     BallModel(1.0)};
+  model::solve_in_basis(basis, {&side});
+  CHECK(side[0].range().lower() == doctest::Approx(-2.0));
+  CHECK(side[0].range().upper() == doctest::Approx(-2.0));
+  CHECK(side[1].range().lower() == doctest::Approx(-1.0));
+  CHECK(side[1].range().upper() == doctest::Approx(3.0));
+}
+
 }  // namespace

@@ -30,12 +30,13 @@ TEST_CASE("a solution is in its range, in any units of rows and columns") {
   CHECK(y.high - y.low < 1e-7);
 }
 
-TEST_CASE("the unknown with the most certain entry is eliminated first") {
-  // s x + y = 1, 0.2 x = 0.4 for all |s| <= 0.9.
-  const BallPolynomial s = BallPolynomial::affine(0.0, 0.9, 0.0, 0.0);
-  const PolynomialMatrix matrix{{s, BallPolynomial(1.0)}, {BallPolynomial(0.2), BallPolynomial(0.0)}};
-  const PolynomialMatrix found = solution_of(matrix, {{BallPolynomial(1.0)}, {BallPolynomial(0.4)}});
-  CHECK(range_over_cell(found[0][0]).low == doctest::Approx(2.0));
+TEST_CASE("where each entry of the first column may be 0 another unknown is eliminated first") {
+  // s x + y = 1, (s - 1/2) x + y = 2 for all |s| <= 0.9: x = -2, y = 1 + 2 s.
+  const PolynomialMatrix matrix{{BallPolynomial::affine(0.0, 0.9, 0.0, 0.0), BallPolynomial(1.0)},
+                                {BallPolynomial::affine(-0.5, 0.9, 0.0, 0.0), BallPolynomial(1.0)}};
+  const PolynomialMatrix found = solution_of(matrix, {{BallPolynomial(1.0)}, {BallPolynomial(2.0)}});
+  CHECK(range_over_cell(found[0][0]).low == doctest::Approx(-2.0));
+  CHECK(range_over_cell(found[0][0]).high == doctest::Approx(-2.0));
   CHECK(range_over_cell(found[1][0]).low == doctest::Approx(-0.8));
   CHECK(range_over_cell(found[1][0]).high == doctest::Approx(2.8));
 }

@@ -143,6 +143,7 @@ class Refinement {
   void even_out_fast() {
     constexpr int kHarmonics = 8;
     constexpr double kMost = 1.2;  // of the scale's logarithm
+    constexpr double kSlow = 0.9;  // where all decay faster there is nothing to mend
     const Index fast = n_ - m_;
     if (fast == 0) {
       return;
@@ -152,6 +153,9 @@ class Refinement {
     for (int j = 0; j < grid_->size(); ++j) {
       const auto factor = matrix_at(seen_, j, n_).bottomRightCorner(fast, fast);
       rates(0, j) = std::log(std::max(factor.cwiseAbs().rowwise().sum().maxCoeff(), 1e-3));
+    }
+    if (!(rates.maxCoeff() > std::log(kSlow))) {
+      return;
     }
     // g(phi + omega) - g(phi) = rate - mean.
     Eigen::MatrixXcd waves = harmonics_of(rates, kHarmonics);

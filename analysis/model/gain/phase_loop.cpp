@@ -142,7 +142,7 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
     const PhaseGridding before = std::exchange(gridding_, {gridding_.phases, gridding_.horizon, parts});
     auto gains = gains_of(0, with_slew);
     const auto still = gains ? gains->errors({}) : std::nullopt;
-    if (!still || !(rigor::radius(still->mean) < kSteady)) {
+    if (still && !(still->for_ever - still->bias <= kSteady)) {
       gains.reset();
     }
     const double missed = gains ? gains->missed_share() : INFINITY;

@@ -170,8 +170,8 @@ class PhaseSets {
   }
 
   /// What comes of how far the curve is from a steady state: rounding, and remainders over cells of phases.
-  /// The bounds of two programs may differ by twice as much.
-  [[nodiscard]] double of_rounding() const { return 2.0 * std::max(0.0, still_->for_ever - still_->bias); }
+  /// The bounds of two programs may differ by as much.
+  [[nodiscard]] double of_rounding() const { return std::max(0.0, still_->for_ever - still_->bias); }
   [[nodiscard]] double claimed(double bound) const { return rigor::add_up(with_room(bound), of_rounding()); }
 
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance,
@@ -203,9 +203,9 @@ class PhaseSets {
                      {}};
     ProvedSet& starts = proof.starts;
     const double width = with_room(still_->ripple);
-    const double room = 0.03 * width + of_rounding() + 1e-13;
+    const double room = 0.03 * width + 2.0 * of_rounding() + 1e-13;  // they may be little else
     starts.bias = still_->mean + Interval::from_bounds(-room, room);
-    starts.ripple = rigor::add_up(width, 2.0 * of_rounding() + 1e-13);
+    starts.ripple = rigor::add_up(width, 4.0 * of_rounding() + 1e-13);
     if (reach_ > 0.0 && at_reach_) {
       starts.reach = kRoom * reach_;
       starts.frequency_error = claimed(at_reach_->for_ever);

@@ -146,9 +146,9 @@ LockSearch::LockSearch(const LockProblem& problem)
   steady_ = noise + 0.01 * PointMatrix::Identity();
   constexpr int kMostBlocks = 20'000;
   for (int k = 0; k < kMostBlocks; ++k) {
-    const PointMatrix next = next_covariance(steady_, information, turn_, noise);
-    const double change = (next - steady_).norm();
-    steady_ = next;
+    const PointMatrix after = next_covariance(steady_, information, turn_, noise);
+    const double change = (after - steady_).norm();
+    steady_ = after;
     if (!(change > 1e-13 * steady_.norm())) {
       break;
     }

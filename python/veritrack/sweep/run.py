@@ -27,6 +27,9 @@ _BATCH_SECONDS = 5.0
 _MOST_IN_BATCH = 200
 _BATCHES_PER_THREAD = 2
 
+_LOST = (OSError, TimeoutError, distributed.TimeoutError)
+"""What a call to a scheduler or a worker raises that is gone."""
+
 Progress = Callable[[int, int, float], None]
 """Told points with a result, all points, and points a second since the start."""
 
@@ -94,7 +97,7 @@ class _Cluster:
             try:
                 self._client = distributed.Client(self._address(), timeout=min(left, 10.0))
                 self._client.wait_for_workers(1, timeout=left)
-            except (OSError, TimeoutError, distributed.TimeoutError):
+            except _LOST:
                 pass  # the attempt took its time, or the address refuses; the loop looks at the clock
         return self._client
 
@@ -104,7 +107,8 @@ class _Cluster:
     def _drop_client(self) -> None:
         client, self._client = self._client, None
         if client is not None:
-            client.close(timeout=1)
+            with contextlib.suppress(*_LOST):  # what it would say goodbye to may be gone
+                client.close(timeout=1)
 
     def close(self) -> None:
         self._drop_client()
@@ -143,6 +147,14 @@ def _batches(spec: Spec, store: Store, program: str, again: bool, size: Callable
         yield batch(taken)
 
 
+def _threads(client: distributed.Client) -> int:
+    """Threads of the workers; none where the scheduler goes away while it is asked."""
+    try:
+        return sum(client.nthreads().values())
+    except _LOST:
+        return 0
+
+
 class _Run:
     """A sweep on its way."""
 
@@ -177,16 +189,21 @@ class _Run:
         if first is None:
             return 0  # a cluster would take seconds
         self._to_repeat.append(first)
+        last = None
         with contextlib.closing(_Cluster(self._options)) as cluster:
             while True:
                 client = cluster.client()
+                if client is not last:  # what another one waits for does not come
+                    self._to_repeat += self._in_flight.values()
+                    self._in_flight.clear()
+                    last = client
                 self._submit(client, batches)
                 if not self._in_flight:
                     return self._certified
                 self._wait(client)
 
     def _submit(self, client: distributed.Client, batches: Iterator[Batch]) -> None:
-        threads = sum(client.nthreads().values())
+        threads = _threads(client)
         now = time.monotonic()
         if threads:
             self._had_workers = now
@@ -225,7 +242,7 @@ class _Run:
     def _take(self, batch: Batch, future: distributed.Future) -> None:
         try:
             results = future.result(timeout=60)
-        except (OSError, TimeoutError, distributed.TimeoutError, distributed.CancelledError):
+        except (*_LOST, distributed.CancelledError):
             self._to_repeat.append(batch)  # the worker that had them is gone
             return
         self._keep(batch, results)

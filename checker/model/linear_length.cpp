@@ -117,10 +117,10 @@ std::vector<double> LinearLength::factors(const Shares& shares, double scale) co
 
 /// The shares for which the largest eigenvalue is approximately least, in the middle of the part: a proposal.
 LinearLength::Shares LinearLength::proposed_shares(double scale) const {
-  constexpr int kSections = 16;
-  constexpr int kSectionsInside = 14;
+  constexpr int kSections = 17;
+  constexpr int kSectionsInside = 15;
   constexpr double kLow = -4.0;
-  constexpr double kHigh = 12.0;
+  constexpr double kHigh = 20.0;  // slow loops have next to no room for noise in one sample
   const auto eigenvalue = [&](const Shares& shares) {
     const std::vector<double> factor = factors(shares, scale);
     SymmetricMatrix sum(size_);

@@ -144,11 +144,11 @@ LockSearch::LockSearch(const LockProblem& problem)
   const PointMatrix noise = process_noise(amplitude);
   const PointMatrix information = jacobian(amplitude, 1.0, offset);
   steady_ = noise + 0.01 * PointMatrix::Identity();
-  constexpr int kMostBlocks = 20'000;
-  for (int k = 0; k < kMostBlocks; ++k) {
-    const PointMatrix after = next_covariance(steady_, information, turn_, noise);
-    const double change = (after - steady_).norm();
-    steady_ = after;
+  constexpr int kMostSteps = 20'000;
+  for (int k = 0; k < kMostSteps; ++k) {
+    const PointMatrix next = next_covariance(steady_, information, turn_, noise);
+    const double change = (next - steady_).norm();
+    steady_ = next;
     if (!(change > 1e-13 * steady_.norm())) {
       break;
     }

@@ -1,5 +1,7 @@
 #include "analysis/model/gain/phase_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -10,6 +12,7 @@
 
 #include "analysis/model/gain/factor_order.hpp"
 #include "analysis/model/gain/floquet_proposal.hpp"
+#include "analysis/model/gain/frame_value.hpp"
 #include "analysis/model/gain/upward_parts.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -84,9 +87,10 @@ std::optional<std::vector<FloquetCell>> cells_of(const TrackedTone& tone, const 
   return cells;
 }
 
+constexpr std::size_t kLongestHorizon = 1U << 16U;  // that the checker takes
+
 /// After how many samples the powers of the matrix are negligible; 0: after too many.
 std::size_t horizon_of(const FloquetCell& cell) {
-  constexpr std::size_t kMost = 1U << 16U;
   constexpr double kNegligible = 1e-4;
   const std::size_t n = cell.states();
   std::vector<double> power(n * n, 0.0);
@@ -95,7 +99,7 @@ std::size_t horizon_of(const FloquetCell& cell) {
     power[i * n + i] = 1.0;
   }
   std::size_t last = 0;
-  for (std::size_t k = 0; k < kMost; ++k) {
+  for (std::size_t k = 0; k < kLongestHorizon; ++k) {
     std::vector<double> next(n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
@@ -110,7 +114,7 @@ std::size_t horizon_of(const FloquetCell& cell) {
     power = std::move(next);
   }
   const std::size_t blocks = last / PhaseKernels::kBlocks + 1;
-  return last + PhaseKernels::kBlocks < kMost ? blocks * PhaseKernels::kBlocks : 0;
+  return last + PhaseKernels::kBlocks < kLongestHorizon ? blocks * PhaseKernels::kBlocks : 0;
 }
 
 }  // namespace
@@ -172,12 +176,13 @@ void PhaseLoop::order_factors() {
   tracker_.recursion = recursion_.get();
 }
 
-bool PhaseLoop::find_gridding(bool with_slew) {
+std::string PhaseLoop::find_gridding(bool with_slew) {
   gridding_.horizon = 0;
   for (const FloquetCell& each : cells_) {
     const std::size_t horizon = horizon_of(each);
     if (horizon == 0) {
-      return false;
+      return fmt::format("its errors take more than {} samples to decay to a ten-thousandth",
+                         kLongestHorizon);
     }
     gridding_.horizon = std::max(gridding_.horizon, horizon);
   }
@@ -196,13 +201,13 @@ bool PhaseLoop::find_gridding(bool with_slew) {
     order_factors();
   }
   gridding_ = best.gridding;
-  return probe_ != nullptr;
+  return probe_ != nullptr ? "" : "256 phases and 64 parts of the band are too coarse for its gains";
 }
 
-std::optional<PhaseLoop> PhaseLoop::make(const TrackerModel& tracker, const TrackedTone& tone,
-                                         const Interval& band, bool with_slew,
-                                         const search::Deadline& deadline) {
+PhaseLoop PhaseLoop::make(const TrackerModel& tracker, const TrackedTone& tone, const Interval& band,
+                          bool with_slew, const search::Deadline& deadline) {
   constexpr std::size_t kMostCells = 8;
+  std::string reason = "no basis was found in which its errors have constant coefficients and decay";
   for (std::size_t count = 1; count <= (with_slew ? 1 : kMostCells) && !deadline.is_over(); count *= 2) {
     std::optional<PhaseLoop> best;
     for (const FloquetGauge gauge : {FloquetGauge::by_mode, FloquetGauge::by_state}) {
@@ -214,17 +219,19 @@ std::optional<PhaseLoop> PhaseLoop::make(const TrackerModel& tracker, const Trac
       loop.cells_ = *std::move(cells);
       loop.given_ = &tracker;
       loop.tone_ = &tone;
-      if (loop.find_gridding(with_slew) &&
-          (!best || loop.probe().largest_gain() * (1.0 + loop.probe().missed_share()) <
-                        best->probe().largest_gain() * (1.0 + best->probe().missed_share()))) {
+      const std::string objection = loop.find_gridding(with_slew);
+      if (!objection.empty()) {
+        reason = objection;
+      } else if (!best || loop.probe().largest_gain() * (1.0 + loop.probe().missed_share()) <
+                              best->probe().largest_gain() * (1.0 + best->probe().missed_share())) {
         best = std::move(loop);
       }
     }
     if (best) {
-      return best;
+      return *std::move(best);
     }
   }
-  return std::nullopt;
+  throw NoFrame(reason);
 }
 
 bool PhaseLoop::for_each_part(const PartTask& task) const {

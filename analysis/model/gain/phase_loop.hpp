@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/model/gain/phase_gains.hpp"
@@ -15,12 +16,12 @@ namespace veritrack::model {
 
 class PhaseLoop {
  public:
-  /// Empty where there is no steady state or no basis, where errors do not decay, or where the deadline is
-  /// over. `with_slew`: for bounds with a slew, too, which needs one cell. Throws NoFrame where the rules do
-  /// not cover the loop. Tracker and tone must outlive it. Needs the upward rounding mode.
-  [[nodiscard]] static std::optional<PhaseLoop> make(const TrackerModel& tracker, const TrackedTone& tone,
-                                                     const rigor::Interval& band, bool with_slew,
-                                                     const search::Deadline& deadline);
+  /// `with_slew`: for bounds with a slew, too, which needs one cell. Throws NoFrame, with the reason, where
+  /// the rules do not cover the loop, there is no steady state or no basis, errors decay too slowly or not,
+  /// or the deadline is over. Tracker and tone must outlive it. Needs the upward rounding mode.
+  [[nodiscard]] static PhaseLoop make(const TrackerModel& tracker, const TrackedTone& tone,
+                                      const rigor::Interval& band, bool with_slew,
+                                      const search::Deadline& deadline);
 
   [[nodiscard]] const std::vector<FloquetCell>& cells() const { return cells_; }
   [[nodiscard]] const PhaseGridding& gridding() const { return gridding_; }
@@ -45,7 +46,8 @@ class PhaseLoop {
   /// `moves`: as one of several parts.
   [[nodiscard]] std::optional<PhaseGains> gains_of(std::size_t part, bool moves = false) const;
   void order_factors();
-  bool find_gridding(bool with_slew);
+  /// Empty, or why there is none.
+  std::string find_gridding(bool with_slew);
   /// Whether it is fine enough with some number of parts.
   bool find_parts(bool with_slew, Fineness& best);
 

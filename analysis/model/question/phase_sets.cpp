@@ -268,13 +268,10 @@ std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, Know
     return nothing("the band goes to 0 or to half the sample rate");
   }
   try {
-    const auto loop =
+    const PhaseLoop loop =
         PhaseLoop::make(question.tracker, question.tone, band, question.slew > 0.0, question.deadline);
-    if (!loop) {
-      return nothing("no basis was found in which its errors have constant coefficients and decay");
-    }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
-    auto proof = PhaseSets(question, *loop, half_distance, known).all();
+    auto proof = PhaseSets(question, loop, half_distance, known).all();
     return proof ? std::move(proof) : nothing("the bounds of its errors do not close");
   } catch (const NoFrame& objection) {
     return nothing(objection.what());

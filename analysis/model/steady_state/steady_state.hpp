@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/model/steady_state/neutral_turn.hpp"
 #include "analysis/model/steady_state/step_derivatives.hpp"
 #include "analysis/search/deadline.hpp"
 #include "trackers/model/filter_parts.hpp"
@@ -72,6 +74,8 @@ struct SteadyState {
   /// The left eigenvector of the product of the Jacobians over the last period, for states in units of their
   /// size; its largest entry is 1. Empty when unknown.
   Eigen::VectorXd mode;
+  /// Where errors do not decay: a turn that the tracker does not notice.
+  std::optional<NeutralTurn> neutral;
   std::vector<int> turns;  ///< of each state while the phase turns once
   /// n x q when settled: the states at phases 2 pi j/q, minus turns times the phase.
   Eigen::MatrixXd states;

@@ -82,6 +82,18 @@ std::string lock_of(const SteadyState& steady) {
                                          : "it has locked to something else";
 }
 
+/// What to write in place of states that turn together without any effect.
+std::string without_turn(const SteadyState& steady) {
+  const auto name = [&](std::size_t state) { return name_of(steady, static_cast<Eigen::Index>(state)); };
+  const std::string angle = name(steady.neutral->angle);
+  const std::string c = name(steady.neutral->cosine);
+  const std::string s = name(steady.neutral->sine);
+  return ": " + angle + ", " + c + " and " + s +
+         " may turn together, and the tracker does not notice. Write " + c + "*cos(" + angle + ") + " + s +
+         "*sin(" + angle + ") and " + s + "*cos(" + angle + ") - " + c + "*sin(" + angle +
+         ") as two states in place of these three (docs/model.md, \"When something is not proved\")";
+}
+
 /// For errors that do not grow, but do not decay by a factor a sample either.
 std::string decay_of(const SteadyState& steady) {
   return steady.rate < 1.0 ? ", which is 1 as far as " + std::to_string(steady.samples) +
@@ -112,7 +124,9 @@ std::string reason_of(const SteadyState& steady) {
              digits(steady.frequency, 6) + ": " + lock_of(steady);
     case SteadyStateOutcome::not_exponentially_stable:
       return "not exponentially stable: each sample multiplies errors by " + digits(steady.rate, 7) +
-             at_frequency(steady) + ", in the mode " + states_in(steady) + decay_of(steady);
+             at_frequency(steady) +
+             (steady.neutral ? without_turn(steady)
+                             : ", in the mode " + states_in(steady) + decay_of(steady));
   }
   return "";
 }

@@ -83,6 +83,12 @@ TEST_CASE("errors that do not decay are named by their mode, the small parts lef
   CHECK(text.find("of w") == std::string::npos);
   steady.rate = 0.99999999;
   CHECK(has(reason_of(steady), "which is 1 as far as 4000 samples can tell"));
+  steady.names = {"ph", "a", "b"};
+  steady.mode = Eigen::Vector3d(1.0, 0.0, 0.0);
+  steady.neutral = {0, 1, 2};
+  CHECK(has(reason_of(steady),
+            "ph, a and b may turn together, and the tracker does not notice. Write a*cos(ph) + b*sin(ph) and "
+            "b*cos(ph) - a*sin(ph) as two states in place of these three"));
 }
 
 TEST_CASE("a proposal that failed says at which step, with its numbers") {

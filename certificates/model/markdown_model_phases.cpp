@@ -84,11 +84,15 @@ std::string model_phases_section(const Certificate& certificate) {
          gain_limits_table(proof.noise ? &*proof.noise : nullptr, nullptr, proof.starts, units) +
          fmt::format(
              "The band is cut into {} parts for this, a turn of the phase into {}, and {} earlier samples "
-             "count one by one. Curve and basis are in `certificate.json`. A statement about *the steady "
+             "count one by one{}. Curve and basis are in `certificate.json`. A statement about *the steady "
              "state of the certificate* is proved in this way, and that steady state is this curve: the "
              "state in which the loop stays without noise, up to rounding. The proof is in "
              "`docs/gain-proof.md` of the program's sources, section 10.\n\n",
-             proof.cells.size() * proof.gridding.parts, proof.gridding.phases, proof.gridding.horizon);
+             proof.cells.size() * proof.gridding.parts, proof.gridding.phases, proof.gridding.horizon,
+             proof.gridding.late_blocks > 0
+                 ? fmt::format(", those before them by turns of the phase ({} samples in all, section 11)",
+                               proof.gridding.lags)
+                 : "");
 }
 
 std::string model_averages_section(const Certificate& certificate) {

@@ -222,6 +222,9 @@ Json floquet_cell_json(const model::FloquetCell& cell, std::size_t parts) {
 
 Json phase_gains_json(const model::PhaseProof& proof) {
   Json json{{"phases", proof.gridding.phases}, {"horizon", proof.gridding.horizon}, {"cells", Json::array()}};
+  if (proof.gridding.late_blocks > 0) {
+    json["late"] = {{"blocks", proof.gridding.late_blocks}, {"turns", proof.gridding.late_turns}};
+  }
   for (const model::FloquetCell& each : proof.cells) {
     json["cells"].push_back(floquet_cell_json(each, proof.gridding.parts));
   }

@@ -79,6 +79,10 @@ void PhaseGains::add_part(const LoopDisturbance& disturbance, const Sizes& sizes
     tables.push_back(largest_over_windows(each));
     largest.push_back(tables.back().back().front());
   }
+  std::vector<std::vector<double>> late;
+  for (const std::vector<double>& each : sizes.of_column) {
+    late.push_back(kernels.has_late() ? kernels.late_sizes(each) : std::vector<double>());
+  }
   std::vector<double> weights(gates * windows.size());
   for (std::size_t g = 0; g < phases_; ++g) {
     for (std::size_t q = 0; q < gates; ++q) {
@@ -104,6 +108,12 @@ void PhaseGains::add_part(const LoopDisturbance& disturbance, const Sizes& sizes
           const double* of_gate = weights.data() + q * windows.size();
           for (std::size_t w = 0; w < windows.size(); ++w) {
             here += gains[w] * of_gate[w];
+          }
+          if (kernels.has_late()) {
+            const double* of_cells = kernels.late(f, PhaseKernels::kFirstGate + q, point);
+            for (std::size_t j = 0; j < phases_; ++j) {
+              here += of_cells[j] * late[q][j];
+            }
           }
         }
         most = larger_or_nan(most, here);
@@ -142,7 +152,9 @@ PhaseGains::Bounds PhaseGains::plus(const Bounds& bounds, const std::vector<doub
 std::optional<PhaseGains::Bounds> PhaseGains::closed(const LoopDisturbance& disturbance,
                                                      const std::vector<double>& from_start) const {
   constexpr int kMostSteps = 200;
-  constexpr double kTooFar = 5.0;  // times the linear bounds: they do not close where they have grown so
+  // Times the linear bounds: they do not close where they have grown so. Where errors decay slowly, what is
+  // of the second order in the noise adds up to more.
+  const double too_far = kernels_.front().has_late() ? 200.0 : 5.0;
   constexpr double kRoom = 1.0005;
   constexpr double kTooLarge = 1e6;
   Bounds bounds(phases_, std::vector<double>(kernels_.front().forms(), 0.0));
@@ -162,7 +174,7 @@ std::optional<PhaseGains::Bounds> PhaseGains::closed(const LoopDisturbance& dist
     bounds = std::move(next);
     const double error = error_of(bounds);
     linear = step == 0 ? error : linear;
-    if (!(error <= kTooFar * linear)) {
+    if (!(error <= too_far * linear)) {
       return std::nullopt;
     }
     if (growth <= 0.0) {

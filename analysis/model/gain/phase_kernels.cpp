@@ -42,7 +42,7 @@ double PhaseKernels::missed_of(const GridFunction& form, const Column& column, c
   }
   double turned = 0.0;
   for (const GridFunction* each : column.components) {
-    turned += 0.25 * product(form.first_difference, power_sum_, each->first_difference);
+    turned += 0.25 * product(form.first_difference, early_power_sum_, each->first_difference);
   }
   return inner(form.largest, column.bent) + inner(form.lean, column.leaned) + turned +
          inner(form.error, column.sizes) + inner(form.largest, column.mistaken) +
@@ -204,6 +204,9 @@ void PhaseKernels::find(const PhaseTotals& totals) {
     residual_.push_back(inner(form.largest, totals.residual) + inner(form.error, totals.residual));
   }
   add_sums();
+  if (late_blocks_ > 0) {
+    add_late_sums();
+  }
   powers_ = {};  // no longer needed
 }
 

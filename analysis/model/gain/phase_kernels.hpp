@@ -58,6 +58,14 @@ class PhaseKernels {
   [[nodiscard]] const double* gains(std::size_t form, std::size_t column, std::size_t point) const {
     return sums_[form][column].data() + point * windows_.size();
   }
+  /// Of late inputs of a gate, by the cell of phases at which they came in; empty where there are none.
+  [[nodiscard]] const double* late(std::size_t form, std::size_t column, std::size_t point) const {
+    return late_[form][column].data() + point * phases_;
+  }
+  [[nodiscard]] bool has_late() const { return late_blocks_ > 0; }
+  /// The sizes of an input by cells of phases, as late inputs may have them (near the ends of a cell, those
+  /// of the next one).
+  [[nodiscard]] std::vector<double> late_sizes(const std::vector<double>& sizes) const;
   /// What the sums on the grid miss, times the largest size of the input.
   [[nodiscard]] double missed(std::size_t form, std::size_t column) const { return missed_[form][column]; }
   [[nodiscard]] double residual(std::size_t form) const { return residual_[form]; }
@@ -94,20 +102,35 @@ class PhaseKernels {
   [[nodiscard]] double half_width_at(std::size_t lag) const;
   [[nodiscard]] double missed_of(const GridFunction& form, const Column& column, const Vector& total) const;
   void add_sums();
+  struct LateTurn;
+  [[nodiscard]] LateTurn late_turn() const;
+  void find_late();
+  struct LateBlock;
+  /// Of the lags of a block; `power`: at both ends of the part, which goes on to the next block.
+  [[nodiscard]] LateBlock late_block(std::size_t block, std::array<Vector, 2>& power);
+  void add_late_block(const LateBlock& of, bool is_last);
+  /// What a product of three functions that are linear in the frequency is beyond its values at both ends.
+  void add_knot(const Vector& size, const Vector& lean);
+  /// That of the part, at one of its ends.
+  [[nodiscard]] Vector end_matrix(std::size_t end) const;
+  void add_late_sums();
   class LagSums;
 
   const PhasePart* part_;
-  std::size_t states_, phases_, horizon_;
+  std::size_t states_, phases_, horizon_, late_blocks_, late_every_, lags_, all_lags_;
   double slew_;
   std::vector<Column> columns_;
   /// Powers of the matrix at both ends of the part, by lag, row by row.
   std::array<Vector, 2> powers_;
-  Vector power_sum_;                   ///< of absolute values
+  std::array<std::vector<Vector>, 2> knots_;  ///< powers at the starts of late blocks, and zeros
+  Vector power_sum_;                          ///< of absolute values
+  Vector early_power_sum_;
   Vector defect_;                      ///< M
   std::vector<Vector> largest_power_;  ///< by block: of absolute values from it on
   std::vector<Window> windows_;
   std::vector<std::size_t> window_of_;  ///< by lag
   std::vector<std::vector<Vector>> sums_;
+  std::vector<std::vector<Vector>> late_;
   std::vector<Vector> missed_;
   Vector residual_;
 };

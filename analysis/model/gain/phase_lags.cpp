@@ -24,6 +24,12 @@ std::vector<double> matrix_times(const std::vector<double>& matrix, const std::v
   return result;
 }
 
+/// Enough for so many turns at all frequencies of the part.
+std::size_t lags_of_turns(std::size_t turns, const PhasePart& part) {
+  const double low = -(part.half_width - part.frequency);
+  return static_cast<std::size_t>(std::ceil(static_cast<double>(turns) * 2.0 * std::numbers::pi / low));
+}
+
 }  // namespace
 
 PhaseKernels::PhaseKernels(const std::vector<PhasePart>& parts, std::size_t index,
@@ -32,6 +38,10 @@ PhaseKernels::PhaseKernels(const std::vector<PhasePart>& parts, std::size_t inde
       states_(part_->states),
       phases_(gridding.phases),
       horizon_(gridding.horizon),
+      late_blocks_(gridding.late_blocks),
+      late_every_(late_blocks_ == 0 ? 0 : lags_of_turns(gridding.late_turns, *part_)),
+      lags_(horizon_ + late_blocks_ * late_every_),
+      all_lags_(std::max(gridding.lags, lags_)),
       slew_(slew) {
   find_columns();
   find_windows();
@@ -173,7 +183,7 @@ void PhaseKernels::add_lag(std::size_t lag, const Neighbours& neighbours) {
 void PhaseKernels::add_defect(std::size_t lag, const Neighbours& neighbours) {
   const std::size_t n = states_;
   const auto entry = [&](std::size_t of_lag, std::size_t at, double sign) {
-    if (of_lag == horizon_) {
+    if (of_lag == lags_) {
       return Interval(0.0);
     }
     const std::size_t place = of_lag * n * n + at;
@@ -215,11 +225,11 @@ void PhaseKernels::find_lags(const std::vector<PhasePart>& parts, std::size_t in
   for (const std::size_t end : {0U, 1U}) {
     const double sign = end == 0 ? -1.0 : 1.0;
     Vector& powers = powers_[end];
-    powers.assign(horizon_ * n * n, 0.0);
+    powers.assign((horizon_ + (late_blocks_ > 0 ? 1 : 0)) * n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
       powers[i * n + i] = 1.0;
     }
-    for (std::size_t k = 0; k + 1 < horizon_; ++k) {
+    for (std::size_t k = 0; (k + 1) * n * n < powers.size(); ++k) {
       const double* power = powers.data() + k * n * n;
       double* next = powers.data() + (k + 1) * n * n;
       for (std::size_t i = 0; i < n * n; ++i) {
@@ -241,11 +251,15 @@ void PhaseKernels::find_lags(const std::vector<PhasePart>& parts, std::size_t in
     for (std::size_t i = 0; i < n * n; ++i) {
       const double size = size_of_power(k, i);
       power_sum_[i] += size;
-      double& largest = largest_power_[k * kBlocks / horizon_][i];
+      double& largest = largest_power_[k * kBlocks / all_lags_][i];
       largest = larger_or_nan(largest, size);
     }
     add_defect(k, neighbours);
     add_lag(k, neighbours);
+  }
+  early_power_sum_ = power_sum_;
+  if (late_blocks_ > 0) {
+    find_late();
   }
   for (std::size_t block = kBlocks; block-- > 0;) {
     for (std::size_t i = 0; i < n * n; ++i) {

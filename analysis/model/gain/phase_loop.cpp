@@ -87,34 +87,105 @@ std::optional<std::vector<FloquetCell>> cells_of(const TrackedTone& tone, const 
   return cells;
 }
 
-constexpr std::size_t kLongestHorizon = 1U << 16U;  // that the checker takes
-
-/// After how many samples the powers of the matrix are negligible; 0: after too many.
-std::size_t horizon_of(const FloquetCell& cell) {
-  constexpr double kNegligible = 1e-4;
-  const std::size_t n = cell.states();
-  std::vector<double> power(n * n, 0.0);
-  std::vector<double> largest(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    power[i * n + i] = 1.0;
+/// Powers of the matrix of a cell in its middle.
+class CellPowers {
+ public:
+  explicit CellPowers(const FloquetCell& cell) : n_(cell.states()) {
+    for (const std::vector<double>& entry : cell.matrix) {
+      matrix_.push_back(entry[0]);
+    }
+    power_.assign(n_ * n_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i) {
+      power_[i * n_ + i] = 1.0;
+    }
+    next_ = largest_ = sum_ = power_;
   }
-  std::size_t last = 0;
-  for (std::size_t k = 0; k < kLongestHorizon; ++k) {
-    std::vector<double> next(n * n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        const double size = std::fabs(power[i * n + j]);
-        largest[i * n + j] = std::max(largest[i * n + j], size);
-        last = size > kNegligible * largest[i * n + j] && size > 1e-12 ? k : last;
-        for (std::size_t m = 0; m < n; ++m) {
-          next[i * n + j] += power[i * n + m] * cell.matrix[m * n + j][0];
-        }
+
+  [[nodiscard]] const std::vector<double>& power() const { return power_; }
+  /// Of absolute values, until now.
+  [[nodiscard]] const std::vector<double>& sums() const { return sum_; }
+  /// Whether some entry is more than this share of the largest one that it was.
+  [[nodiscard]] bool is_above(double share) const {
+    constexpr double kNothing = 1e-12;
+    for (std::size_t i = 0; i < power_.size(); ++i) {
+      if (std::fabs(power_[i]) > share * largest_[i] && std::fabs(power_[i]) > kNothing) {
+        return true;
       }
     }
-    power = std::move(next);
+    return false;
   }
-  const std::size_t blocks = last / PhaseKernels::kBlocks + 1;
-  return last + PhaseKernels::kBlocks < kLongestHorizon ? blocks * PhaseKernels::kBlocks : 0;
+  void advance() {
+    for (std::size_t i = 0; i < n_; ++i) {
+      for (std::size_t j = 0; j < n_; ++j) {
+        double sum = 0.0;
+        for (std::size_t m = 0; m < n_; ++m) {
+          sum += power_[i * n_ + m] * matrix_[m * n_ + j];
+        }
+        next_[i * n_ + j] = sum;
+      }
+    }
+    std::swap(power_, next_);
+    for (std::size_t i = 0; i < power_.size(); ++i) {
+      largest_[i] = std::max(largest_[i], std::fabs(power_[i]));
+      sum_[i] += std::fabs(power_[i]);
+    }
+  }
+  /// How far those half way are from the mean of these and others, against sums of all.
+  [[nodiscard]] double bend(const std::vector<double>& half_way, const std::vector<double>& others,
+                            const std::vector<double>& sums) const {
+    double most = 0.0;
+    for (std::size_t i = 0; i < power_.size(); ++i) {
+      const double off = std::fabs(half_way[i] - 0.5 * (power_[i] + others[i]));
+      most = sums[i] > 0.0 ? std::max(most, off / sums[i]) : most;
+    }
+    return most;
+  }
+
+ private:
+  std::size_t n_;
+  std::vector<double> matrix_, power_, next_, largest_, sum_;
+};
+
+constexpr std::size_t kLongestHorizon = 1U << 16U;  // that the checker takes one by one
+constexpr std::size_t kMostLags = 1U << 22U;
+
+/// After how many samples the powers of the matrix are negligible, and their sums; 0: after too many.
+std::size_t lags_of(const FloquetCell& cell, std::vector<double>& sums) {
+  constexpr double kNegligible = 1e-4;
+  CellPowers powers(cell);
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < kMostLags; ++k) {
+    last = powers.is_above(kNegligible) ? k : last;
+    if (k > 2 * last + 1024) {
+      break;
+    }
+    powers.advance();
+  }
+  sums = powers.sums();
+  return last + 1 < kMostLags ? last + 1 : 0;
+}
+
+/// From which multiple of 64 on powers are nearly linear over so many lags; 0: from none.
+std::size_t nearly_linear_from(const FloquetCell& cell, std::size_t lags, const std::vector<double>& sums) {
+  constexpr double kBend = 1e-3;
+  for (std::size_t first = PhaseKernels::kBlocks; first < kLongestHorizon; first *= 2) {
+    CellPowers powers(cell);
+    for (std::size_t k = 0; k < first; ++k) {
+      powers.advance();
+    }
+    const std::vector<double> from = powers.power();
+    for (std::size_t k = 0; k < lags / 2; ++k) {
+      powers.advance();
+    }
+    const std::vector<double> half_way = powers.power();
+    for (std::size_t k = lags / 2; k < lags; ++k) {
+      powers.advance();
+    }
+    if (powers.bend(half_way, from, sums) * static_cast<double>(lags) < kBend) {
+      return first;
+    }
+  }
+  return 0;
 }
 
 }  // namespace
@@ -135,15 +206,17 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
   // With more phases as many parts are needed as with fewer.
   const std::size_t fewest_parts =
       std::isfinite(best.missed) ? std::max<std::size_t>(best.gridding.parts / 2, 2) : 2;
-  const std::size_t most_parts = (with_slew ? 128 : 64) / cells_.size();
+  const std::size_t most_parts = (with_slew ? 128 : gridding_.late_blocks > 0 ? 16 : 64) / cells_.size();
   // What may be missed of the gain: with a slew finer parts take minutes, because all look at each other.
-  const double fine = with_slew ? 0.1 : 0.06;
+  const bool is_late = gridding_.late_blocks > 0;  // then every part takes seconds in both programs
+  const double fine = with_slew || is_late ? 0.1 : 0.06;
   constexpr double kBetter = 0.9;
-  constexpr double kNear = 1.03;
+  const double near_gain = is_late ? 1.1 : 1.03;
   constexpr double kSteady = 0x1p-19;  // rad/sample: the steady state is known to this, or phases are too few
   double last_gain = INFINITY;
   for (std::size_t parts = fewest_parts; parts <= most_parts; parts *= 2) {
-    const PhaseGridding before = std::exchange(gridding_, {gridding_.phases, gridding_.horizon, parts});
+    const PhaseGridding before = gridding_;
+    gridding_.parts = parts;
     auto gains = gains_of(0, with_slew);
     const auto still = gains ? gains->errors({}) : std::nullopt;
     if (still && !(still->for_ever - still->bias <= kSteady)) {
@@ -151,7 +224,7 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
     }
     const double missed = gains ? gains->missed_share() : INFINITY;
     const double gain = gains ? gains->largest_gain() : INFINITY;
-    if (!(missed < kBetter * best.missed) && last_gain < kNear * gain && std::isfinite(best.missed)) {
+    if (!(missed < kBetter * best.missed) && last_gain < near_gain * gain && std::isfinite(best.missed)) {
       gridding_ = before;
       break;
     }
@@ -159,7 +232,7 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
       best = {missed, gridding_};
       probe_ = std::make_shared<PhaseGains>(*std::move(gains));
     }
-    if (missed < fine && last_gain < kNear * gain) {
+    if (missed < fine && last_gain < near_gain * gain) {
       return true;
     }
     last_gain = gain;
@@ -176,15 +249,47 @@ void PhaseLoop::order_factors() {
   tracker_.recursion = recursion_.get();
 }
 
-std::string PhaseLoop::find_gridding(bool with_slew) {
-  gridding_.horizon = 0;
-  for (const FloquetCell& each : cells_) {
-    const std::size_t horizon = horizon_of(each);
-    if (horizon == 0) {
-      return fmt::format("its errors take more than {} samples to decay to a ten-thousandth",
-                         kLongestHorizon);
+std::string PhaseLoop::find_horizon(bool with_slew) {
+  std::size_t lags = 0;
+  std::vector<std::vector<double>> sums(cells_.size());
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const std::size_t here = lags_of(cells_[i], sums[i]);
+    if (here == 0) {
+      return fmt::format("its errors take more than {} samples to decay to a ten-thousandth", kMostLags);
     }
-    gridding_.horizon = std::max(gridding_.horizon, horizon);
+    lags = std::max(lags, here);
+  }
+  gridding_.late_blocks = gridding_.late_turns = 0;
+  gridding_.lags = gridding_.horizon = (lags / PhaseKernels::kBlocks + 1) * PhaseKernels::kBlocks;
+  if (gridding_.horizon <= kLongestHorizon) {
+    return {};
+  }
+  if (with_slew) {
+    return fmt::format("its errors take {} samples to decay to a ten-thousandth: too many with a slew", lags);
+  }
+  constexpr double kShare = 0.01;  // of all lags, of a block
+  const double low = cells_.front().curve.frequency - cells_.front().curve.half_width;
+  const double turn = 2.0 * std::numbers::pi / low;
+  gridding_.late_turns = static_cast<std::size_t>(kShare * static_cast<double>(lags) / turn) + 1;
+  const auto block = static_cast<std::size_t>(std::ceil(static_cast<double>(gridding_.late_turns) * turn));
+  gridding_.horizon = 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const std::size_t first = nearly_linear_from(cells_[i], block, sums[i]);
+    if (first == 0 || block > kLongestHorizon) {
+      return fmt::format(
+          "its errors take {} samples to decay to a ten-thousandth, and none of them is gone soon", lags);
+    }
+    gridding_.horizon = std::max(gridding_.horizon, first);
+  }
+  gridding_.late_blocks = lags / block + 1;
+  gridding_.lags = gridding_.horizon + gridding_.late_blocks * block;
+  return {};
+}
+
+std::string PhaseLoop::find_gridding(bool with_slew) {
+  std::string objection = find_horizon(with_slew);
+  if (!objection.empty()) {
+    return objection;
   }
   constexpr std::array<std::size_t, 2> kPhases{128, 256};
   Fineness best;
@@ -192,7 +297,7 @@ std::string PhaseLoop::find_gridding(bool with_slew) {
     gridding_.phases = phases;
     order_factors();
     // With a slew all parts are kept, and all look at each other.
-    if (find_parts(with_slew, best) || with_slew) {
+    if (find_parts(with_slew, best) || with_slew || gridding_.late_blocks > 0) {
       break;
     }
   }

@@ -46,6 +46,8 @@ class PhaseLoop {
   /// `moves`: as one of several parts.
   [[nodiscard]] std::optional<PhaseGains> gains_of(std::size_t part, bool moves = false) const;
   void order_factors();
+  /// How many lags, and which of them one by one. Empty, or why there is none.
+  std::string find_horizon(bool with_slew);
   /// Empty, or why there is none.
   std::string find_gridding(bool with_slew);
   /// Whether it is fine enough with some number of parts.

@@ -16,8 +16,11 @@ namespace veritrack::model {
 /// How bounds are computed: the cells of phases, the horizon, and the parts of the frequencies.
 struct PhaseGridding {
   std::size_t phases = 64;
-  std::size_t horizon = 1024;
+  std::size_t horizon = 1024;  ///< lags that are taken one by one
   std::size_t parts = 1;
+  /// Later ones by turns of the phase: so many blocks, of so many turns each.
+  std::size_t late_blocks = 0, late_turns = 0;
+  std::size_t lags = 1024;  ///< all of them, at the lowest frequency
 };
 
 /// The part of a step over a cell of phases that bounds need.

@@ -243,7 +243,7 @@ class PhaseSets {
 
 double samples_below(const PhaseProof& proof, const Interval& target) {
   const std::vector<double>& errors = proof.errors.from_block;
-  const std::size_t length = proof.gridding.horizon / PhaseKernels::kBlocks;
+  const std::size_t length = proof.gridding.lags / PhaseKernels::kBlocks;
   for (std::size_t block = 0; block < errors.size(); ++block) {
     if (rigor::certainly_less(Interval(errors[block]), target)) {
       return static_cast<double>(block * length);

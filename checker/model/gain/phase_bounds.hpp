@@ -14,7 +14,8 @@ namespace veritrack::checker {
 struct PhaseLoopEvidence {
   PhaseStructure structure;
   std::vector<std::vector<PhasePart>> cells;  ///< by cell: its parts, from low frequencies to high ones
-  std::size_t phases = 0, horizon = 0;
+  std::size_t phases = 0;
+  PhaseHorizon horizon;
   std::vector<Ball> frequency_factors;  ///< by state: the derivative of the frequency, wherever it is
 };
 

@@ -15,6 +15,8 @@ namespace {
 constexpr long kFewestPhases = 8;
 constexpr long kMostPhasesOfGains = 512;
 constexpr long kLongestHorizonOfPhases = 1L << 16;
+constexpr long kMostLateBlocks = 4096;
+constexpr long kMostLateTurns = 65536;
 constexpr long kMostPartsOfCell = 4096;
 constexpr long kMostTurnsOfCurve = 1000;
 
@@ -144,6 +146,18 @@ std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedMo
       horizon > kLongestHorizonOfPhases) {
     objections.emplace_back("phases are a power of 2 from 8 to 512, and a horizon is at most 65536");
   }
+  std::size_t late_blocks = 0;
+  std::size_t late_turns = 0;
+  if (const Tree* late = gains.find("late")) {
+    const long blocks = late->at("blocks").integer();
+    const long turns = late->at("turns").integer();
+    if (blocks < 1 || blocks > kMostLateBlocks || turns < 1 || turns > kMostLateTurns || design.moves()) {
+      objections.emplace_back("late lags are 1 to 4096 blocks of 1 to 65536 turns, at a constant frequency");
+      return nullptr;
+    }
+    late_blocks = static_cast<std::size_t>(blocks);
+    late_turns = static_cast<std::size_t>(turns);
+  }
   check_phase_design(recursion, design, objections);
   const std::vector<PhaseCell> cells = read_cells(gains.at("cells"), recursion, design, objections);
   if (!objections.empty()) {
@@ -152,7 +166,9 @@ std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedMo
   try {
     PhaseLoopEvidence evidence;
     evidence.phases = static_cast<std::size_t>(phases);
-    evidence.horizon = static_cast<std::size_t>(horizon);
+    evidence.horizon.single = static_cast<std::size_t>(horizon);
+    evidence.horizon.late_blocks = late_blocks;
+    evidence.horizon.late_turns = late_turns;
     evidence.frequency_factors = factors_of_frequency(recursion);
     evidence.structure =
         phase_structure(with_small_factors_last(recorded_step(recursion),

@@ -17,7 +17,7 @@ double parts_of_turn(const Ball& frequency, std::size_t phases, bool above) {
 
 }  // namespace
 
-PhaseGroup::PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, std::size_t horizon,
+PhaseGroup::PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, const PhaseHorizon& horizon,
                        double slew)
     : parts_(std::move(parts)), phases_(phases), slew_(slew) {
   if (parts_.empty() || !(slew >= 0.0) || (slew == 0.0 && parts_.size() != 1)) {

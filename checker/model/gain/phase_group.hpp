@@ -16,7 +16,8 @@ class PhaseGroup {
  public:
   /// For changes of the frequency of at most `slew` in a sample (rad/sample); 0: the parts are one. The parts
   /// go from low frequencies to high ones, and must outlive this.
-  PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, std::size_t horizon, double slew);
+  PhaseGroup(std::vector<const PhasePart*> parts, std::size_t phases, const PhaseHorizon& horizon,
+             double slew);
 
   PhaseGroup(PhaseGroup&&) = default;
   PhaseGroup& operator=(PhaseGroup&&) = default;

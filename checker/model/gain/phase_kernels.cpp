@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "checker/model/gain/phase_lags.hpp"
+#include "checker/model/gain/size_vectors.hpp"
 
 namespace veritrack::checker {
 
@@ -36,20 +37,36 @@ bool is_stage(const PhaseStage& stage, const PhaseLoop& loop, std::size_t n) {
   return is_one;
 }
 
+/// Of a block.
+std::size_t late_lags_of(const PhaseLoop& loop) {
+  return static_cast<std::size_t>(
+      std::ceil(static_cast<double>(loop.horizon.late_turns * loop.phases) / loop.low));
+}
+
+/// Late lags need a constant frequency that is certainly above 0 and below a turn in a sample.
+bool has_late_band(const PhaseLoop& loop) {
+  constexpr std::size_t kMostBlocks = 4096;
+  constexpr double kMostLags = 0x1p16;  // of a block
+  return loop.slew == 0.0 && loop.low > 0.0 && loop.high < static_cast<double>(loop.phases) &&
+         loop.horizon.late_blocks <= kMostBlocks && loop.horizon.late_turns >= 1 &&
+         static_cast<double>(loop.horizon.late_turns * loop.phases) <= kMostLags * loop.low;
+}
+
 /// The frequencies are known, and do not go further than twice around in a sample at any lag.
 bool has_band(const PhaseLoop& loop) {
   const double turn = 2.0 * static_cast<double>(loop.phases);
-  const double more = up(0.5 * static_cast<double>(loop.horizon + 1) * loop.slew);
+  const double more = up(0.5 * static_cast<double>(loop.horizon.single + 1) * loop.slew);
   return std::isfinite(loop.low) && std::isfinite(loop.high) && loop.low <= loop.high && loop.slew >= 0.0 &&
-         std::isfinite(more) && loop.low - more >= -turn && loop.high + more <= turn;
+         (loop.horizon.late_blocks == 0 || has_late_band(loop)) && std::isfinite(more) &&
+         loop.low - more >= -turn && loop.high + more <= turn;
 }
 
 bool is_loop(const PhaseLoop& loop) {
   const std::size_t n = loop.matrix[0].size();
   const std::size_t phases = loop.phases;
   if (n < 1 || n > kMostPhaseStates || phases < 8 || phases > kMostPhases || (phases & (phases - 1)) != 0 ||
-      loop.horizon < 1 || loop.horizon > kLongestPhaseHorizon || loop.forms.empty() || loop.inputs.empty() ||
-      loop.stages.empty() || loop.stages.front().first_lag != 0 ||
+      loop.horizon.single < 1 || loop.horizon.single > kLongestPhaseHorizon || loop.forms.empty() ||
+      loop.inputs.empty() || loop.stages.empty() || loop.stages.front().first_lag != 0 ||
       loop.has_one_size.size() != loop.inputs.size() || !has_band(loop)) {
     return false;
   }
@@ -93,13 +110,15 @@ PhaseSizes::PhaseSizes(const std::vector<double>& sizes) : most{sizes} {
 PhaseKernels::PhaseKernels(const PhaseLoop& loop)
     : phases_(loop.phases),
       states_(loop.matrix[0].size()),
-      horizon_(loop.horizon),
+      horizon_(loop.horizon.single),
       forms_(loop.forms.size()),
       inputs_(loop.inputs.size()) {
   if (!is_loop(loop)) {
     return;
   }
   matrix_ = loop.matrix;
+  late_lags_ = loop.horizon.late_blocks > 0 ? late_lags_of(loop) : 0;
+  step_ = loop.high;
   while ((std::size_t{1} << levels_) < phases_) {
     ++levels_;
   }
@@ -124,25 +143,14 @@ void PhaseKernels::allocate(const PhaseLoop& loop) {
     source_of_lag_.push_back(found->second);
   }
   spend(static_cast<std::int64_t>(forms_ * inputs_ * sources_.size() * phases_));
+  power_sum_.assign(states_, std::vector<double>(states_, 0.0));
   rest_.assign(forms_, std::vector<double>(inputs_, 0.0));
   defect_.assign(states_, std::vector<double>(states_, 0.0));
   totals_.assign(inputs_, std::vector<double>(states_, 0.0));
 }
 
 std::vector<double> PhaseKernels::total_of(const std::vector<double>& s) const {
-  NearPowers powers(matrix_);
-  std::vector<double> sum(states_, 0.0);
-  for (std::size_t lag = 0; lag < horizon_; ++lag) {
-    const std::vector<double> size = powers.times(s);
-    for (std::size_t i = 0; i < states_; ++i) {
-      sum[i] += size[i];
-    }
-    powers.advance();
-  }
-  for (double& entry : sum) {
-    entry = entry * kManyRoundings + kManyUnderflows;
-  }
-  return sum;
+  return product_above(power_sum_, s);
 }
 
 std::vector<double> PhaseKernels::largest_from(std::size_t first, const std::vector<double>& s) const {
@@ -154,6 +162,11 @@ std::vector<double> PhaseKernels::largest_from(std::size_t first, const std::vec
       most[i] = std::isfinite(size[i]) ? std::max(most[i], up(size[i]) + kManyUnderflows) : HUGE_VAL;
     }
     powers.advance();
+  }
+  for (std::size_t block = 0; block < largest_late_.size(); ++block) {
+    if (horizon_ + (block + 1) * late_lags_ > first) {
+      raise_all(most, product_above(largest_late_[block], s));
+    }
   }
   return most;
 }
@@ -167,6 +180,9 @@ void PhaseKernels::add(std::size_t form, std::size_t input, const PhaseSizes& si
       sums.right[g] += size * static_cast<double>(of[g + 1 == phases_ ? 0 : g + 1]);
     }
     return;
+  }
+  if (!largest_late_.empty()) {
+    add_late(form, input, sizes, sums);
   }
   for (std::size_t source = 0; source < sources_.size(); ++source) {
     const float* const sum = of.data() + source * phases_;

@@ -24,11 +24,18 @@ struct PhaseStage {
   std::vector<std::array<std::vector<double>, 2>> column_errors;  ///< by input and its component
 };
 
+/// The lags over which responses are added up.
+struct PhaseHorizon {
+  std::size_t single = 0;       ///< K, at most 2^16: one by one
+  std::size_t late_blocks = 0;  ///< of later lags, which are taken by turns of the phase
+  std::size_t late_turns = 0;   ///< of a block, at most 2^16 lags
+};
+
 /// A loop at the frequencies of a part. Sizes of numbers are those of doubles: all of them have to be finite,
 /// or nothing is valid.
 struct PhaseLoop {
-  std::size_t phases = 0;        ///< N
-  std::size_t horizon = 0;       ///< K, at most 2^16
+  std::size_t phases = 0;  ///< N
+  PhaseHorizon horizon;
   double low = 0.0, high = 0.0;  ///< enclose the frequencies, in parts of a turn of 2 pi/N per sample
   double slew = 0.0;             ///< W in the same unit
   /// Those of which powers are taken, at both ends of the frequencies, row by row. With a slew both are the
@@ -51,6 +58,8 @@ struct PhaseSizes {
 struct EndSums {
   std::vector<double> left, right;
 };
+
+class NearPowers;
 
 class PhaseKernels {
  public:
@@ -81,9 +90,12 @@ class PhaseKernels {
     std::size_t first = 0;
   };
   class Lags;
+  class LateLags;
 
   void allocate(const PhaseLoop& loop);
   void sum_up(const PhaseLoop& loop);
+  void add_late_lags(const PhaseLoop& loop, const NearPowers& powers, Table& sums);
+  void add_late(std::size_t form, std::size_t input, const PhaseSizes& sizes, EndSums& sums) const;
   [[nodiscard]] std::size_t place_of(std::size_t form, std::size_t input) const {
     return form * inputs_ + input;
   }
@@ -93,9 +105,13 @@ class PhaseKernels {
   std::vector<Source> sources_;             ///< of all lags, each once
   std::vector<std::size_t> source_of_lag_;  ///< the number
   std::vector<std::vector<float>> sums_;    ///< by place_of, then source and grid point
-  Table rest_;                              ///< by form and input
-  Table form_sizes_;                        ///< |c| + error, by form and state
-  Table defect_, totals_;
+  std::vector<std::vector<float>> late_;  ///< by place_of, then grid point and cell; empty without late lags
+  std::size_t late_lags_ = 0;
+  std::vector<Table> largest_late_;  ///< |G| by block
+  double step_ = 0.0;                ///< the highest frequency, in parts of a turn
+  Table rest_;                       ///< by form and input
+  Table form_sizes_;                 ///< |c| + error, by form and state
+  Table power_sum_, defect_, totals_;
   bool is_valid_ = false;
 };
 

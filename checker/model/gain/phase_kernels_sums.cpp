@@ -185,8 +185,17 @@ void PhaseKernels::sum_up(const PhaseLoop& loop) {
     const LagPlace place(loop, lag);
     lags.add_ends(powers, place, source_of_lag_[lag]);
     lags.add_rest(powers, place, loop.stages[stage]);
-    powers.add_defect(loop.stages[stage].matrix_error, lag + 1 == horizon_, defect_);
+    powers.add_defect(loop.stages[stage].matrix_error, loop.horizon.late_blocks == 0 && lag + 1 == horizon_,
+                      defect_);
+    for (std::size_t i = 0; i < states_; ++i) {
+      for (std::size_t j = 0; j < states_; ++j) {
+        power_sum_[i][j] += powers.size()[i][j];
+      }
+    }
     powers.advance();
+  }
+  if (loop.horizon.late_blocks > 0) {
+    add_late_lags(loop, powers, lags.sums());
   }
   for (const std::vector<double>& sums : lags.sums()) {
     sums_.emplace_back();
@@ -202,6 +211,7 @@ void PhaseKernels::sum_up(const PhaseLoop& loop) {
       }
     }
   };
+  settle(power_sum_);
   settle(rest_);
   settle(defect_);
   settle(totals_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace veritrack::checker {
 
@@ -12,12 +13,14 @@ NearPowers::NearPowers(const std::array<Table, 2>& matrix) : matrix_(&matrix) {
     identity[i][i] = 1.0;
   }
   power_ = {identity, identity};
+  next_ = identity;
   compare(power_, size_, lean_);
   compare(*matrix_, matrix_size_, matrix_lean_);
 }
 
 void NearPowers::compare(const std::array<Table, 2>& ends, Table& size, Table& lean) {
-  size = lean = ends[0];
+  size.resize(ends[0].size(), std::vector<double>(ends[0].size()));
+  lean.resize(ends[0].size(), std::vector<double>(ends[0].size()));
   for (std::size_t i = 0; i < size.size(); ++i) {
     for (std::size_t j = 0; j < size.size(); ++j) {
       const double low = ends[0][i][j];
@@ -52,15 +55,16 @@ void NearPowers::advance() {
   const std::size_t n = size_.size();
   spend(static_cast<std::int64_t>(n * n));
   for (const std::size_t end : {0U, 1U}) {
-    Table next(n, std::vector<double>(n, 0.0));
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t k = 0; k < n; ++k) {
-        for (std::size_t j = 0; j < n; ++j) {
-          next[i][j] += power_.at(end)[i][k] * matrix_->at(end)[k][j];
+      for (std::size_t j = 0; j < n; ++j) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < n; ++k) {
+          sum += power_.at(end)[i][k] * matrix_->at(end)[k][j];
         }
+        next_[i][j] = sum;
       }
     }
-    power_.at(end) = std::move(next);
+    std::swap(power_.at(end), next_);
   }
   compare(power_, size_, lean_);
 }
@@ -68,12 +72,17 @@ void NearPowers::advance() {
 // With G = G_0 + z L and A = A_0 + z A_1 + error, |z| <= 1, the next power is that of each end up to
 // rounding, and G_(k+1) - G_k A = (1 - z^2) L A_1 + rounding - G error.
 void NearPowers::add_defect(const Table& matrix_error, bool is_last, Table& defect) const {
+  add_defect(size_, lean_, matrix_error, is_last, defect);
+}
+
+void NearPowers::add_defect(const Table& sizes, const Table& leans, const Table& matrix_error, bool is_last,
+                            Table& defect) const {
   constexpr double kOfProducts = 0x1p-45;  // far above 33 roundings
-  for (std::size_t i = 0; i < size_.size(); ++i) {
-    for (std::size_t k = 0; k < size_.size(); ++k) {
-      const double size = size_[i][k];
-      const double lean = lean_[i][k];
-      for (std::size_t j = 0; j < size_.size(); ++j) {
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      const double size = sizes[i][k];
+      const double lean = leans[i][k];
+      for (std::size_t j = 0; j < sizes.size(); ++j) {
         const double entry = matrix_size_[k][j];
         defect[i][j] +=
             size * (matrix_error[k][j] + (is_last ? entry : kOfProducts * entry)) + lean * matrix_lean_[k][j];

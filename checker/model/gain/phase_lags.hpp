@@ -26,9 +26,15 @@ class NearPowers {
   }
   /// |G| column.
   [[nodiscard]] std::vector<double> times(const std::vector<double>& column) const;
+  /// The larger size of both ends, and half of their difference or more.
+  [[nodiscard]] const Table& size() const { return size_; }
+  [[nodiscard]] const Table& lean() const { return lean_; }
   void advance();
   /// Adds sup |G_(k+1) - G_k A|; the power after the last one is 0.
   void add_defect(const Table& matrix_error, bool is_last, Table& defect) const;
+  /// The same for powers of such sizes.
+  void add_defect(const Table& sizes, const Table& leans, const Table& matrix_error, bool is_last,
+                  Table& defect) const;
 
  private:
   [[nodiscard]] static std::vector<double> row_times(const std::vector<double>& row, const Table& sizes);
@@ -38,6 +44,7 @@ class NearPowers {
   const std::array<Table, 2>* matrix_;
   std::array<Table, 2> power_;
   Table size_, lean_;  ///< of the powers
+  Table next_;
   Table matrix_size_, matrix_lean_;
 };
 

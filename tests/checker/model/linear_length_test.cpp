@@ -6,8 +6,8 @@ namespace veritrack::checker {
 namespace {
 
 TEST_CASE("what hardly shrinks in one direction has its length with noise in the other") {
-  // |(a x, h y + b v)|^2 over the unit ball of (x, y) and |v| <= 1 is at most a^2 + a^2 b^2 / (a^2 - h^2), and
-  // this is reached where y = h b / (a^2 - h^2).
+  // |(a x, h y + b v)|^2 over the unit ball of (x, y) and |v| <= 1 is at most a^2 + a^2 b^2 / (a^2 - h^2),
+  // and this is reached where y = h b / (a^2 - h^2).
   constexpr double kA = 1.0 - 1e-6;
   constexpr double kH = 0.5;
   const VectorMonomials monomials(2, 1);

@@ -108,6 +108,35 @@ TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly r
   }
 }
 
+TEST_CASE("so it is where late inputs are taken by turns of the phase") {
+  const test::Example loop(test::phase_locked_loop(0.002));
+  const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kGauge, kLow, kHigh);
+  REQUIRE(cell);
+  const rigor::UpwardRounding upward;
+  // 100 blocks of 4 turns, of 87 samples or less.
+  const auto bounds = gains_of(loop.model, *cell, {64, 256, 8, 100, 4, 256 + 100 * 87}, 0);
+  const auto one_by_one = gains_of(loop.model, *cell, {64, 8192, 64, 0, 0, 8192}, 0);
+  REQUIRE(bounds);
+  REQUIRE(one_by_one);
+  const double frequency = kLow + (kHigh - kLow) / 16.0;
+  for (const double noise : {0.002, 0.05}) {
+    const auto errors = errors_of(bounds, noise);
+    const auto others = errors_of(one_by_one, noise);
+    REQUIRE(errors);
+    REQUIRE(others);
+    double reached = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      reached = std::max(reached, attack(loop, *cell, frequency, std::numbers::pi * i / 4.0, noise, 8000));
+    }
+    CHECK(reached <= errors->for_ever);
+    CHECK(reached >= 0.5 * errors->for_ever);
+    CHECK(errors->for_ever < 1.3 * others->for_ever);
+  }
+  const auto started = errors_of(bounds, 0.0, 0.0, {2e-4, 0.0});
+  REQUIRE(started);
+  CHECK(started->from_block.back() < 0.1 * started->from_block.front());
+}
+
 TEST_CASE("starts and a frequency that moves stay within their bounds") {
   const test::Example loop(test::phase_locked_loop(0.02));
   const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kGauge, kLow, kHigh);

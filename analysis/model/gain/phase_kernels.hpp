@@ -122,15 +122,15 @@ class PhaseKernels {
   std::vector<Column> columns_;
   /// Powers of the matrix at both ends of the part, by lag, row by row.
   std::array<Vector, 2> powers_;
-  std::array<std::vector<Vector>, 2> knots_;  ///< powers at the starts of late blocks, and zeros
+  std::array<std::vector<Vector>, 2> knots_;  ///< powers where late blocks begin, and at the end
   Vector power_sum_;                          ///< of absolute values
-  Vector early_power_sum_;
-  Vector defect_;                      ///< M
-  std::vector<Vector> largest_power_;  ///< by block: of absolute values from it on
+  Vector early_power_sum_;                    ///< of the lags that are taken one by one
+  Vector defect_;                             ///< M
+  std::vector<Vector> largest_power_;         ///< by block: of absolute values from it on
   std::vector<Window> windows_;
   std::vector<std::size_t> window_of_;  ///< by lag
   std::vector<std::vector<Vector>> sums_;
-  std::vector<std::vector<Vector>> late_;
+  std::vector<std::vector<Vector>> late_;  ///< by form, column, point of the grid and cell
   std::vector<Vector> missed_;
   Vector residual_;
 };

@@ -14,7 +14,7 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// a times the matrix middle + sign lean.
+/// The product of two n x n matrices, row by row.
 Vector times(const Vector& a, const Vector& matrix, std::size_t n) {
   Vector result(n * n, 0.0);
   for (std::size_t i = 0; i < n * n; ++i) {

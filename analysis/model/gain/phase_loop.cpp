@@ -276,8 +276,8 @@ std::string PhaseLoop::find_horizon(bool with_slew) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t first = nearly_linear_from(cells_[i], block, sums[i]);
     if (first == 0 || block > kLongestHorizon) {
-      return fmt::format(
-          "its errors take {} samples to decay to a ten-thousandth, and none of them is gone soon", lags);
+      return fmt::format("its errors take {} samples to decay to a ten-thousandth: too many for its gains",
+                         lags);
     }
     gridding_.horizon = std::max(gridding_.horizon, first);
   }
@@ -306,7 +306,9 @@ std::string PhaseLoop::find_gridding(bool with_slew) {
     order_factors();
   }
   gridding_ = best.gridding;
-  return probe_ != nullptr ? "" : "256 phases and 64 parts of the band are too coarse for its gains";
+  return probe_ != nullptr
+             ? ""
+             : "its gains were not bounded with the phases and parts of the band that are tried";
 }
 
 PhaseLoop PhaseLoop::make(const TrackerModel& tracker, const TrackedTone& tone, const Interval& band,

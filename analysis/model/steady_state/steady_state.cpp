@@ -224,7 +224,9 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
   const bool is_unstable = !(result.rate <= 1.0 - resolved) && (returns || result.rate <= 1.0 + resolved);
   if (is_unstable && result.rate > 0.0) {
     result.outcome = SteadyStateOutcome::not_exponentially_stable;
-    result.neutral = find_neutral_turn(tone.step, run.states().col(0), settling->size);
+    if (result.rate <= 1.0 + resolved) {  // what grows is something else
+      result.neutral = find_neutral_turn(tone.step, run.states().col(0), settling->size);
+    }
   } else if (std::fabs(result.mean_error) > settings.largest_mean_error) {
     result.outcome = SteadyStateOutcome::locked_elsewhere;
   } else if (!returns || !is_whole) {

@@ -8,16 +8,6 @@
 
 namespace veritrack::checker {
 
-namespace {
-
-/// Not below it.
-float float_above(double x) {
-  const auto near = static_cast<float>(x);
-  return static_cast<double>(near) < x ? std::nextafter(near, HUGE_VALF) : near;
-}
-
-}  // namespace
-
 /// What does not change from lag to lag, and room for what does.
 class PhaseKernels::Lags {
  public:

@@ -1,6 +1,8 @@
 // The sums of phase_kernels.hpp, lag by lag.
 #pragma once
 
+#include <cmath>
+
 #include "checker/model/gain/phase_kernels.hpp"
 
 namespace veritrack::checker {
@@ -9,6 +11,12 @@ namespace veritrack::checker {
 constexpr double kManyRoundings = 1.0 + 0x1p-34;
 /// More than all that such sums lose to underflow.
 constexpr double kManyUnderflows = 0x1p-900;
+
+/// Not below it.
+inline float float_above(double x) {
+  const auto near = static_cast<float>(x);
+  return static_cast<double>(near) < x ? std::nextafter(near, HUGE_VALF) : near;
+}
 
 /// Powers of the matrices at both ends of the frequencies in doubles, between which they are linear, and what
 /// they differ by from products of matrices near the line between both.

@@ -10,9 +10,9 @@ namespace veritrack::checker {
 
 namespace {
 
-float float_above(double x) {
-  const auto near = static_cast<float>(x);
-  return static_cast<double>(near) < x ? std::nextafter(near, HUGE_VALF) : near;
+/// To the larger one; what is no number stays so.
+void raise(double& most, double value) {
+  most = value <= most || std::isnan(most) ? most : value;
 }
 
 /// How many cells of phases on either side a sample may have come from that stands for half of a step.
@@ -57,7 +57,7 @@ class LateColumn {
         steepest = std::max(steepest, slope_[i % phases]);
       }
       const double mean = 0.5 * (size_[g] + size_[(g + 1) % phases]) + step * steepest;
-      most[g] = mean <= most[g] ? most[g] : mean;
+      raise(most[g], mean);
     }
   }
 
@@ -195,14 +195,14 @@ class PhaseKernels::LateLags {
         for (std::size_t k = 0; k < states_; ++k) {
           const double size = powers_.size()[i][k];
           of.sum[i][k] += size;
-          of.most[i][k] = size <= of.most[i][k] ? of.most[i][k] : size;
-          of.lean[i][k] = std::max(of.lean[i][k], powers_.lean()[i][k]);
+          raise(of.most[i][k], size);
+          raise(of.lean[i][k], powers_.lean()[i][k]);
           for (const std::size_t end : {0U, 1U}) {
             const double from = knots_[block].at(end)[i][k];
             const double to = knots_[block + 1].at(end)[i][k];
             const double off = std::abs(powers_.power(end)[i][k] - ((1.0 - share) * from + share * to)) +
                                0x1p-49 * (size + std::abs(from) + std::abs(to));
-            of.bend[i][k] = off <= of.bend[i][k] ? of.bend[i][k] : off;
+            raise(of.bend[i][k], off);
           }
         }
       }

@@ -108,7 +108,7 @@ TEST_CASE("a loop of one channel stays within its bounds, which attacks nearly r
   }
 }
 
-TEST_CASE("so it is where late inputs are taken by turns of the phase") {
+TEST_CASE("a slow loop stays within its bounds where late inputs are taken by turns of the phase") {
   const test::Example loop(test::phase_locked_loop(0.002));
   const auto cell = model::propose_floquet_cell(test::tone_of(loop.tracker), kGauge, kLow, kHigh);
   REQUIRE(cell);

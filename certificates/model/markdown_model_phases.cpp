@@ -90,8 +90,9 @@ std::string model_phases_section(const Certificate& certificate) {
              "`docs/gain-proof.md` of the program's sources, section 10.\n\n",
              proof.cells.size() * proof.gridding.parts, proof.gridding.phases, proof.gridding.horizon,
              proof.gridding.late_blocks > 0
-                 ? fmt::format(", those before them by turns of the phase (up to {} samples in all, section 11)",
-                               proof.gridding.lags)
+                 ? fmt::format(
+                       ", those before them by turns of the phase (up to {} samples in all, section 11)",
+                       proof.gridding.lags)
                  : "");
 }
 

@@ -261,11 +261,11 @@ FrameValue atan2(const FrameValue& y, const FrameValue& x) {
     line.constant = rigor::atan2(y.line().constant, x.line().constant);
     return named_line(FrameOperation::arctangent2, y, x, std::move(line));
   }
-  if (y.kind() != Kind::waves || x.kind() != Kind::waves ||
-      !FrameRules::find_pattern(frame, y.waves(), x.waves(), pattern)) {
-    throw NoFrame("atan2 of other than the two parts of one signal");
-  }
-  return named_line(FrameOperation::arctangent2, y, x, FrameRules::angle_line(frame, pattern, 1));
+  const bool is_of_wave = y.kind() == Kind::waves && x.kind() == Kind::waves &&
+                          FrameRules::find_pattern(frame, y.waves(), x.waves(), pattern);
+  return named_line(FrameOperation::arctangent2, y, x,
+                    is_of_wave ? FrameRules::angle_line(frame, pattern, 1)
+                               : FrameRules::direction_line(frame, frame.line_of(y), frame.line_of(x)));
 }
 
 FrameValue stays_within(const FrameValue& x, const FrameValue& low, const FrameValue& high) {

@@ -108,6 +108,25 @@ double function_remainder(const FunctionRule& rule, const Interval& base, double
   return sum;
 }
 
+/// sup |arg(1 + u + i v) - v| over |u| <= along, |v| <= across; infinite where it may be as far as `room`
+/// from 0.
+double direction_remainder(double along, double across, const Interval& room) {
+  if (!(along < 1.0) || !(across < INFINITY)) {
+    return INFINITY;
+  }
+  const Interval u(along);
+  const Interval v(across);
+  const Interval nearest = Interval(1.0) - u;
+  if (!rigor::certainly_less(rigor::atan(v / nearest), room)) {
+    return INFINITY;
+  }
+  // atan(v/(1 - u)) - v grows up to this v, and falls from there on; v - atan(v/(1 + u)) grows.
+  const Interval top = sqrt(u * nearest);
+  const Interval at = across < top.lower() ? v : top;
+  return std::max((rigor::atan(at / nearest) - at).upper(),
+                  (v - rigor::atan(v / (Interval(1.0) + u))).upper());
+}
+
 void require_no_turns(const FrameLine& line) {
   if (line.turns != 0 || line.is_modular) {
     throw NoFrame("a function of an angle other than sin and cos");
@@ -325,6 +344,37 @@ FrameLine FrameRules::function_line(Frame& frame, FrameOperation operation, cons
       add_input(frame, remainder(rule.name, [rule, base, form](const std::vector<double>& bounds) {
                   return function_remainder(rule, base, bounds[form]);
                 }));
+  add_component(line, input, Interval(1.0));
+  return line;
+}
+
+/// atan2(y, x), by what deviates along the steady direction and across it, relative to its length.
+FrameLine FrameRules::direction_line(Frame& frame, const FrameLine& y, const FrameLine& x) {
+  require_no_turns(y);
+  require_no_turns(x);
+  const Interval base_y = base_of(y, frame.band_);
+  const Interval base_x = base_of(x, frame.band_);
+  const Interval squares = square(base_y) + square(base_x);
+  FrameLine line;
+  line.constant = rigor::atan2(base_y, base_x);
+  if (!rigor::is_finite(line.constant) || !rigor::certainly_less(Interval(0.0), squares)) {
+    throw NoFrame("the steady state is at the border of an operation");
+  }
+  if (y.is_form_empty() && x.is_form_empty()) {
+    return line;
+  }
+  const auto part_of = [](const FrameLine& of, const Interval& factor) {
+    return scaled(form_of(of), factor, std::nullopt);
+  };
+  const FrameLine across = sum_of(part_of(y, base_x / squares), part_of(x, base_y / squares), true);
+  const FrameLine along = sum_of(part_of(x, base_x / squares), part_of(y, base_y / squares), false);
+  line = sum_of(line, across, false);
+  const auto u = static_cast<std::size_t>(add_form(frame, along));
+  const auto v = static_cast<std::size_t>(add_form(frame, across));
+  const Interval room = rigor::pi() - Interval(rigor::magnitude(line.constant));
+  const int input = add_input(frame, remainder("atan2", [u, v, room](const std::vector<double>& bounds) {
+                                return direction_remainder(bounds[u], bounds[v], room);
+                              }));
   add_component(line, input, Interval(1.0));
   return line;
 }

@@ -4,7 +4,59 @@
 #include <cmath>
 #include <string>
 
+#include "checker/model/formula.hpp"
+
 namespace veritrack::checker {
+
+namespace {
+
+/// At least |arg(1 + u + i v) - v| for |u| and |v| at most these; everything where u may be -1, or the angle
+/// as far as `room` from 0.
+Ball remainder_of_direction(const Ball& u, const Ball& v, const Ball& room) {
+  const Ball nearest = one - u;
+  if (!certainly_positive(nearest) || !certainly_less(arctangent(v / nearest), room)) {
+    return Ball::everything();
+  }
+  // atan(v/(1 - u)) - v has its maximum at this v.
+  const Ball top = sqrt(u * nearest);
+  const Ball at = certainly_less(v, top) ? v : top;
+  return max(arctangent(at / nearest) - at, v - arctangent(v / (one + u)));
+}
+
+}  // namespace
+
+/// atan2 is that of the steady values plus that of 1 + u + i v, where u and v are what deviates along their
+/// direction and across it, relative to their length.
+int LinearFrame::direction(int y, int x) {
+  return made("atan2 " + std::to_string(y) + " " + std::to_string(x), [&] {
+    const LinearValue imaginary = at(y);
+    const LinearValue real = at(x);
+    require_plain(imaginary);
+    require_plain(real);
+    const Ball of_y = base(imaginary);
+    const Ball of_x = base(real);
+    const Ball squares = square(of_y) + square(of_x);
+    LinearValue along;
+    add_deviations(along, real, of_x / squares);
+    add_deviations(along, imaginary, of_y / squares);
+    LinearValue across;
+    add_deviations(across, imaginary, of_x / squares);
+    add_deviations(across, real, -(of_y / squares));
+    LinearValue result = across;
+    result.constant = arctangent2(of_y, of_x);
+    if (!along.deviations.empty() || !across.deviations.empty()) {
+      const std::string of = std::to_string(y) + " " + std::to_string(x);
+      const int u = made("along " + of, [&] { return along; });
+      const int v = made("across " + of, [&] { return across; });
+      const Ball room = pi() - abs(result.constant);
+      const std::size_t source = add_input({nullptr, {u, v}, [room](const std::vector<Ball>& bounds) {
+                                              return remainder_of_direction(bounds.at(0), bounds.at(1), room);
+                                            }});
+      result.deviations[source] = {one, zero};
+    }
+    return result;
+  });
+}
 
 int LinearFrame::sample_phase() {
   return made("sample phase", [] { return LinearValue{1, zero, one, {}, true}; });

@@ -149,7 +149,7 @@ FrameValue arctangent2(const FrameValue& y, const FrameValue& x) {
   const std::optional<TurnedWave> wave =
       imaginary && real ? turned_wave(frame(), *imaginary, *real) : std::nullopt;
   if (!wave) {
-    throw NotCovered("atan2 of other than the two parts of one wave");
+    return FrameValue(FrameValue::Linear{frame().direction(y.linear(), x.linear())});
   }
   const int angle = argument(frame(), *wave);
   if (frame().at(angle).turns != 0) {

@@ -82,6 +82,8 @@ class LinearFrame {
   int quotient(int x, int y);
   /// A function of this name: sqrt, exp, log, tan, asin, acos, atan, reciprocal.
   int function(const std::string& name, int x);
+  /// atan2 of y and x, off its cut.
+  int direction(int y, int x);
   int stays_within(int x, int low, int high);
   int larger(int x, int y);
   int clamped(int x, int low, int high);

@@ -120,6 +120,42 @@ TEST_CASE("every formula stays within its line, its noise and its remainders") {
   check(
       [](const auto& v) { return atan2(sin(atan2(v.y2, v.y1) - v.theta), cos(atan2(v.y2, v.y1) - v.theta)); },
       1.0, 0.5);
+  check([](const auto& v) { return atan2(quadrature(v), v.k * in_phase(v)); }, 0.2, 0.1);
+  check([](const auto& v) { return atan2(v.w, v.l) - atan2(-v.w, v.k - v.l); }, 0.2, 0.0);
+  check([](const auto& v) { return atan2(v.l * v.w, v.w - v.k); }, 0.05, 0.0);
+}
+
+TEST_CASE("the remainder of an arc tangent of two values is what is reached, and none is known at the cut") {
+  const rigor::UpwardRounding upward;
+  const auto remainder_of = [](const auto& formula, double along, double across) {
+    Setting setting;
+    (void)setting.frame.line_of(formula(setting.values));
+    const FrameInput& input = setting.frame.inputs().back();
+    REQUIRE(input.what == "atan2");
+    std::vector<double> bounds(setting.frame.forms().size(), 0.0);
+    bounds.end()[-2] = along;
+    bounds.end()[-1] = across;
+    return input.at_bounds(bounds);
+  };
+  const auto forward = [](const auto& v) { return atan2(v.w - v.w + v.w * v.k, v.l); };
+  const auto backward = [](const auto& v) { return atan2(v.w, -v.k); };
+  for (const auto& [along, across] : {std::pair(0.3, 0.1), {0.3, 0.9}, {0.0, 2.0}, {0.7, 0.2}, {0.9, 5.0}}) {
+    double reached = 0.0;
+    for (int i = -200; i <= 200; ++i) {
+      for (int j = 0; j <= 200; ++j) {
+        const double v = across * j / 200.0;
+        reached = std::max(reached, std::fabs(atan2(v, 1.0 + along * i / 200.0) - v));
+      }
+    }
+    CHECK(remainder_of(forward, along, across) >= reached);
+    CHECK(remainder_of(forward, along, across) <= 1.001 * reached);
+  }
+  CHECK(std::isinf(remainder_of(forward, 1.0, 0.1)));
+  CHECK(std::isinf(remainder_of(forward, NAN, 0.1)));
+  CHECK(std::isinf(remainder_of(forward, 0.1, NAN)));
+  // The steady direction is 0.93 rad from the cut.
+  CHECK(std::isfinite(remainder_of(backward, 0.3, 0.92)));
+  CHECK(std::isinf(remainder_of(backward, 0.3, 0.94)));
 }
 
 // Of numbers, and of values by argument-dependent lookup.
@@ -245,7 +281,8 @@ TEST_CASE("what depends on the phase, or on the turns of an angle, is refused") 
   check_refused([](const auto& v) { return v.theta * v.theta; });
   check_refused([](const auto& v) { return exp(v.theta); });
   check_refused([](const auto& v) { return quadrature(v) * v.theta; });
-  check_refused([](const auto& v) { return atan2(quadrature(v), v.k * in_phase(v)); });
+  check_refused([](const auto& v) { return atan2(quadrature(v), v.y1); });
+  check_refused([](const auto& v) { return atan2(quadrature(v), quadrature(v)); });  // of the origin
   check_refused([](const auto& v) { return atan(v.y2 / v.y1); });
   check_refused([](const auto& v) { return v.w / (v.w - v.w); });
   check_refused([](const auto& v) { return stays_within(v.w, v.k + v.l, v.l); });

@@ -179,6 +179,13 @@ TEST_CASE("detectors of many kinds are covered, with amplitudes in a range") {
                           [](double, double t, const State&) { return t; }));
     CHECK(covers_detector(loop, parts + "d = atan2(0.3*s, 0.3*c)",
                           [](double, double t, const State&) { return t; }));
+    CHECK(covers_detector(
+        loop, parts + "d = atan2(s, 0.9*c) + atan2(freq - 1, 0.5*c) - atan2(freq - 1, 0.5)",
+        [](double r, double t, const State& x) {
+          return std::atan2(r * std::sin(t), 0.9 * r * std::cos(t)) +
+                 std::atan2(x[1] - 1, 0.5 * r * std::cos(t)) - std::atan2(x[1] - 1, 0.5);
+        },
+        0.1, 0.1));
     CHECK(covers_detector(loop, "d = sin(atan2(q, i) - phase)",
                           [](double, double t, const State&) { return std::sin(t); }));
     CHECK(covers_detector(loop, parts + "d = s*sqrt(1.5 + c)*exp(freq)",
@@ -248,6 +255,22 @@ TEST_CASE("functions with kinks are covered, idle or not, and with limits that m
   CHECK_FALSE(is_at_rest("d = max(s, 0) - max(-s, 0)"));
 }
 
+TEST_CASE("an arc tangent of two values is known off its cut") {
+  const GainNetwork network = loop_with("d = atan2(freq - 1, -1 - freq) + 3*pi/4").network();
+  const GainInput& input = network.inputs.at(0);
+  REQUIRE(input.about.size() == 2);
+  const auto size = [&](double along, double across) {
+    return input.at_bounds({Ball(along), Ball(across)}).upper_double();
+  };
+  CHECK(size(0.2, 0.2) >= std::atan(0.2 / 0.8) - 0.2);
+  CHECK(size(0.2, 0.2) <= 1.001 * (std::atan(0.2 / 0.8) - 0.2));
+  CHECK(size(0.0, 0.3) >= 0.3 - std::atan(0.3));
+  CHECK_FALSE(std::isfinite(size(1.0, 0.3)));
+  // At freq = 0.5 the direction is 0.32 rad from the cut.
+  CHECK(std::isfinite(size(0.2, 0.25)));
+  CHECK_FALSE(std::isfinite(size(0.2, 0.27)));
+}
+
 TEST_CASE("without noise the remainders alone cover a step") {
   const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
   const auto covers_silent = [&](const std::string& lines, const auto& value) {
@@ -289,7 +312,8 @@ TEST_CASE("what the rules do not cover says nothing") {
   CHECK_FALSE(is_covered("d = q - phase"));                        // an angle as a number
   CHECK_FALSE(is_covered("d = 0.5*phase"));
   CHECK_FALSE(is_covered("d = atan2(q, i)/2 - phase/2"));  // halves of angles known modulo 2 pi
-  CHECK_FALSE(is_covered(parts + "d = atan2(s, 0.9*c)"));  // not of one wave
+  CHECK_FALSE(is_covered(parts + "d = atan2(s, i)"));
+  CHECK_FALSE(is_covered(parts + "d = atan2(s, s)"));  // of the origin
   CHECK_FALSE(is_covered(parts + "d = stays_within(phase, -9, 9)"));
   CHECK_FALSE(is_covered(parts + "d = sqrt(s - 2)"));
   CHECK_FALSE(is_covered("d = atan2(q, i) - phase"));  // a state known modulo 2 pi

@@ -31,7 +31,7 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// What a tracker says after a sample: NaN where it does not say it.
+/// A tracker's report on a sample: NaN where it has no value.
 template <std::size_t Channels, std::size_t Values>
 struct Said {
   std::array<double, Values> state;  ///< the estimate with this sample

@@ -21,8 +21,8 @@ using certificates::FileDescriptor;
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// What the new process does. Other threads may have been at work when it was made: only calls that are safe
-/// in a signal handler.
+/// The work of the new process. Other threads may have been at work when it was made: only calls that are
+/// safe in a signal handler.
 [[noreturn]] void become(char* const* words, const std::array<int, 3>& streams, const std::vector<int>& files,
                          pid_t parent, const FileDescriptor& failure) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -28,7 +28,7 @@ void end_with_standard_input() {
   ::_exit(0);
 }
 
-/// Answers go to what was the standard output. What a library may print goes to standard error.
+/// Answers go to what was the standard output. The output of a library goes to standard error.
 std::FILE* take_standard_output() {
   const int descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (descriptor < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {

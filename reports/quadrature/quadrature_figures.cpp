@@ -157,7 +157,7 @@ FigureTable table_of_tube(const certificates::FrequencyErrorBounds& tube) {
   for (std::size_t k = 0; k < tube.bound.size(); ++k) {
     std::vector<FigureTable::Cell> row{static_cast<double>(k), tube.bound[k]};
     for (const std::vector<double>& run : tube.runs) {
-      // What rounding leaves of an error that is gone is not worth a decade of the picture.
+      // Rounding that remains of a vanished error is not worth a decade of the picture.
       row.emplace_back(run[k] > 1e-3 * tube.bound.back() ? run[k] : std::nan(""));
     }
     table.add(std::move(row));

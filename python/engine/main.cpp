@@ -38,7 +38,7 @@ std::FILE* take_standard_output() {
 }
 
 bool say(std::FILE* output, const veritrack::python::Json& json) {
-  // Bytes that are not UTF-8 can only come from a design, and are told as such in its messages.
+  // Bytes that are not UTF-8 can only come from a design, and are reported as such in its messages.
   const std::string line =
       json.dump(-1, ' ', false, veritrack::python::Json::error_handler_t::replace) + "\n";
   return std::fwrite(line.data(), 1, line.size(), output) == line.size() && std::fflush(output) == 0;

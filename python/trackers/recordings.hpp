@@ -154,7 +154,7 @@ void in_threads(std::size_t size, std::size_t threads, const Work& work) {
 
 /// A batch of trackers of one kind. `Tracker` is copyable, has kChannels, kValues, and
 ///     Said<kChannels, kValues> step(const double* sample),
-/// which is told kChannels doubles, and may throw.
+/// which takes kChannels doubles, and may throw.
 template <typename Tracker>
 class Batch {
  public:

@@ -39,7 +39,7 @@ std::optional<double> long_run_bound(const Certificate& certificate) {
   return std::isfinite(bound) && bound > 0.0 ? std::optional(bound) : std::nullopt;
 }
 
-/// Bounds that far below the others are told in words: as lines they would take most of the axis.
+/// Bounds that far below the others are written in words: as lines they would take most of the axis.
 constexpr double kWorthDrawing = 1e-3;
 
 /// "Too small to draw: start error that (2.45) admits, printed: 2.24e-14." Takes them out of the levels.

@@ -143,7 +143,7 @@ class Refinement {
   void even_out_fast() {
     constexpr int kHarmonics = 8;
     constexpr double kMost = 1.2;  // of the scale's logarithm
-    constexpr double kSlow = 0.9;  // where all decay faster there is nothing to mend
+    constexpr double kSlow = 0.9;  // where all decay faster there is nothing to correct
     const Index fast = n_ - m_;
     if (fast == 0) {
       return;

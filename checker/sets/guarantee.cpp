@@ -25,7 +25,7 @@ const std::string kMeanSquare = "ekf/rms-frequency-error";
 const std::string kLowestSnr = "ekf/lowest-snr";
 const std::string kPerSample = " rad/sample";
 
-/// In any unit.
+/// For a number of any unit.
 bool is_zero(const Tree& number) {
   const std::string& text = text_of(number);
   return certainly_equal(from_decimal(text.substr(0, text.find(' '))), zero);

@@ -51,7 +51,7 @@ struct FrameInput {
   std::vector<int> about;
   std::function<Ball(const std::vector<Ball>& bounds)> at_bounds;
 
-  /// The ripple of such an input; its size is at_noise, too.
+  /// The ripple, where the input is one; its size is at_noise, too.
   std::optional<FrameRipple> ripple = std::nullopt;
 
   [[nodiscard]] bool is_remainder() const { return !about.empty(); }

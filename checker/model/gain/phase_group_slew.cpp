@@ -1,4 +1,4 @@
-// Differences to earlier samples whose frequencies are others.
+// Differences to earlier samples at other frequencies.
 #include "checker/model/gain/phase_group.hpp"
 
 #include <algorithm>

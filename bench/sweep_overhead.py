@@ -35,14 +35,14 @@ def main():
         for processes in workers:
             path = pathlib.Path(folder, f"{processes}.sqlite")
             with contextlib.closing(sweep.Store(path)) as store:
-                told = []
+                reported = []
                 start = time.perf_counter()
                 sweep.run_sweep(spec, store, sweep.Options(jobs=processes),
-                                lambda done, size, rate: told.append((time.perf_counter() - start, done)))
-            first = next(entry for entry in told if entry[1] > 0)  # the cluster has started by then
-            rate = (told[-1][1] - first[1]) / max(told[-1][0] - first[0], 1e-9)
+                                lambda done, size, rate: reported.append((time.perf_counter() - start, done)))
+            first = next(entry for entry in reported if entry[1] > 0)  # the cluster has started by then
+            rate = (reported[-1][1] - first[1]) / max(reported[-1][0] - first[0], 1e-9)
             print(f"{processes} worker processes: {rate:.0f} designs/s, "
-                  f"{path.stat().st_size / told[-1][1]:.0f} bytes a design, "
+                  f"{path.stat().st_size / reported[-1][1]:.0f} bytes a design, "
                   f"client at most {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB")
 
 

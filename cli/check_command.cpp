@@ -87,7 +87,7 @@ std::vector<CheckTask> tasks_of(const std::vector<std::string>& named) {
   return tasks;
 }
 
-/// What came of a design, with what the options ask of it.
+/// The outcome of a design, with the requirements of the options.
 CheckedDesign judged(CheckedDesign checked, const std::string& path, const CheckOptions& options) {
   checked.path = path;
   if (options.strict && !checked.objection && checked.requirements.empty()) {

@@ -16,7 +16,7 @@ namespace veritrack::cli {
 
 namespace {
 
-/// What the interpreter runs: the package's own command line, or a message that says how to get it.
+/// The code that the interpreter runs: the package's own command line, or a message that says how to get it.
 constexpr const char* kHandOver =
     "import sys\n"
     "try:\n"

@@ -23,7 +23,7 @@ namespace {
 
 using namespace veritrack::cli;  // NOLINT(google-build-using-namespace): this file is made of it
 
-/// What to say when the first argument that is no option is no command; empty when it is one.
+/// The message when the first argument that is no option is no command; empty when it is one.
 std::string unknown_command(CLI::App& app, int argc, char** argv) {
   const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
   const auto first = std::find_if(arguments.begin() + 1, arguments.end(),
@@ -41,7 +41,7 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
                      veritrack::certificates::nearest_key(*first, known), fmt::join(known, ", "));
 }
 
-/// What to say of the first option that the command does not have; empty when it has all of them.
+/// The message on the first option that the command does not have; empty when it has all of them.
 std::string unknown_option(CLI::App& app, int argc, char** argv) {
   const auto arguments = std::span(argv, static_cast<std::size_t>(argc)).subspan(1);
   std::vector<std::string> known;

@@ -17,7 +17,7 @@ namespace veritrack::cli {
 
 namespace {
 
-/// What is freed is kept for the next polynomial instead of being given back to the kernel: with nine states
+/// Freed memory is kept for the next polynomial instead of being given back to the kernel: with nine states
 /// that took a third of the time.
 void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 1 << 30);

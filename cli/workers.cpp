@@ -60,7 +60,7 @@ void write_all(const FileDescriptor& output, const std::string& text) {
   }
 }
 
-/// What the new process does; it never returns.
+/// The work of the new process; it never returns.
 [[noreturn]] void work_and_exit(const WorkPlan& plan, std::size_t piece, const FileDescriptor& output,
                                 pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -28,7 +28,7 @@ struct WorkPlan {
   std::function<std::string(std::size_t)> work;
   /// After how many seconds a piece is stopped; 0: never.
   std::function<double(std::size_t)> limit;
-  /// Told in this process as each piece ends, in whatever order.
+  /// Called in this process as each piece ends, in whatever order.
   std::function<void(std::size_t, const WorkerResult&)> done;
 };
 

@@ -60,7 +60,7 @@ CertificateFiles write_certificate_files(const certificates::Certificate& certif
     document.appendix = certificates::to_published_markdown(certificate, options);
   };
   if (verify) {
-    // What is verified is what will be written: that it was is a line of it.
+    // The verified texts are those that will be written: a line of them says that they were verified.
     render({certificates::Verification::Outcome::verified});
     TextsToVerify texts{json, certificate.design_text, {{"certificate.md", document.markdown}}};
     if (!document.appendix.empty()) {

@@ -21,8 +21,8 @@ using certificates::FileDescriptor;
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// What the new process does. Other threads may have been at work when it was made: only calls that are safe
-/// in a signal handler.
+/// The work of the new process. Other threads may have been at work when it was made: only calls that are
+/// safe in a signal handler.
 [[noreturn]] void become(char* const* words, const std::array<int, 3>& streams, const std::vector<int>& files,
                          pid_t parent, const FileDescriptor& failure) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -94,7 +94,7 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     fail_with("a pipe");
   }
-  const FileDescriptor told(ends[0]);
+  const FileDescriptor reported(ends[0]);
   FileDescriptor failure(ends[1]);
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
@@ -106,7 +106,7 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
   }
   failure.close();
   int error = 0;
-  const bool is_started = told.read(reinterpret_cast<char*>(&error), sizeof error) == 0;
+  const bool is_started = reported.read(reinterpret_cast<char*>(&error), sizeof error) == 0;
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) {

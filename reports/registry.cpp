@@ -1,4 +1,4 @@
-// What reports/ has for the trackers.
+// The reports of the trackers.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

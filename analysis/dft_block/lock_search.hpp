@@ -8,7 +8,7 @@
 
 namespace veritrack::dft_block {
 
-/// Of the symmetric part.
+/// The smallest eigenvalue of the symmetric part.
 [[nodiscard]] double smallest_eigenvalue(const rigor::Matrix<3>& a);
 
 /// A block from one error, in the frame of a set: X is `centre` plus or minus up to `spread`.

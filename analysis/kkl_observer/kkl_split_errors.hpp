@@ -73,7 +73,7 @@ class SplitErrors {
   }
 
  private:
-  /// Of the rows of [lambda 1]^+, then of those of N'.
+  /// Weights of the rows of [lambda 1]^+, then of those of N'.
   using Weights = std::array<Interval, Map::kFilters>;
   static constexpr std::size_t kFirstAcross = 2;
 

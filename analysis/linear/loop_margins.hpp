@@ -14,10 +14,11 @@ struct GainMargin {
   double low = 0.0;
   double high = 0.0;
 };
-/// Of A - (f - 1) b c over the factor f (docs/gain-proof.md, section 7), of a loop that is stable with f = 1.
+/// The factors f for which A - (f - 1) b c is stable (docs/gain-proof.md, section 7), of a loop that is
+/// stable with f = 1.
 [[nodiscard]] GainMargin gain_margin(const DetectorLoop& loop);
 
-/// What a stable loop still tolerates. The open loop is c (z - A - b c)^-1 b.
+/// The delay that a stable loop still tolerates. The open loop is c (z - A - b c)^-1 b.
 struct DelayMargin {
   double samples = 0.0;    ///< a further delay in the loop, shorter than this
   double phase = 0.0;      ///< rad, at the crossover where a delay does harm first

@@ -1,4 +1,4 @@
-// What engineers ask of a linear loop: modes, the response to a step, the noise that passes. In floating
+// The usual measures of a linear loop: modes, the response to a step, the noise that passes. In floating
 // point: nothing here is proved.
 #pragma once
 
@@ -15,7 +15,7 @@ struct LinearLoop {
   Eigen::MatrixXd noise;        ///< a column for each component of white noise of deviation 1
   Eigen::VectorXd step;         ///< x after a step of the input by 1
   Eigen::RowVectorXd estimate;  ///< the error of the estimate
-  /// Of noise of amplitude 1 at one frequency, the share that turns with it: with one channel half of its
+  /// The share of noise of amplitude 1 at one frequency that turns with it: with one channel half of its
   /// power.
   double tone_share = 1.0;
 };

@@ -40,8 +40,8 @@ Interval size_at(const std::vector<Interval>& p, const std::complex<double>& z) 
   return sqrt(square(real) + square(imaginary));
 }
 
-/// Of a monic polynomial, about these points: discs that together contain all roots, and as many in those
-/// that touch each other as there are of these. Empty where it is not certain.
+/// Discs about these points that together contain all roots of a monic polynomial, and as many in those that
+/// touch each other as there are of these. Empty where it is not certain.
 std::optional<std::vector<Disc>> root_discs(const std::vector<Interval>& p,
                                             const std::vector<std::complex<double>>& near) {
   std::vector<Disc> discs;
@@ -87,7 +87,7 @@ Interval smallest_angle(const Disc& disc) {
   return box.near_ > 0.0 && box.right > 0.0 ? atan(Interval(box.near_) / Interval(box.right)) : Interval(0.0);
 }
 
-/// Of all points of the disc, or of none.
+/// For all points of the disc, or for none.
 Verdict is_damped(const Disc& disc, const Interval& least) {
   const Interval size = distance(disc.centre, {0.0, 0.0});
   const Interval room = Interval(1.0) - square(least);

@@ -34,7 +34,7 @@ GroupSums sums_of_groups(const BallMonomials& monomials, const double* norms) {
   return sums;
 }
 
-/// Of every two groups, whether a product is dropped.
+/// Whether the product of two groups is dropped, for every two.
 using DroppedPairs = std::array<std::array<bool, BallMonomials::kGroups>, BallMonomials::kGroups>;
 constexpr DroppedPairs kDropped = [] {
   DroppedPairs dropped{};
@@ -50,7 +50,7 @@ constexpr DroppedPairs kDropped = [] {
 double truncated_product(const BallMonomials& monomials, const double* norms_of_a, const double* norms_of_b) {
   const GroupSums of_a = sums_of_groups(monomials, norms_of_a);
   const GroupSums of_b = sums_of_groups(monomials, norms_of_b);
-  // Of models of s and z alone there are the first ones only.
+  // Models of s and z alone have the first ones only.
   const std::size_t groups = monomials.is_plane() ? BallMonomials::kMost + 1 : BallMonomials::kGroups;
   double sum = 0.0;
   for (std::size_t i = 0; i < groups; ++i) {

@@ -38,7 +38,7 @@ class BallModelScope {
   BallModelScope(BallModelScope&&) = delete;
   BallModelScope& operator=(BallModelScope&&) = delete;
 
-  /// Of the innermost scope of this thread. Throws std::logic_error when there is none.
+  /// The monomials of the innermost scope of this thread. Throws std::logic_error when there is none.
   [[nodiscard]] static const BallMonomials& monomials();
 
  private:

@@ -16,8 +16,8 @@ namespace veritrack::rigor {
 
 namespace {
 
-/// What the grammar check found: (-1)^negative * 0.DIGITS * base^scale, with a first digit that is not zero.
-/// No digits mean zero.
+/// The number that the grammar check found: (-1)^negative * 0.DIGITS * base^scale, with a first digit that is
+/// not zero. No digits mean zero.
 struct Magnitude {
   bool negative = false;
   std::string digits;

@@ -58,7 +58,7 @@ class IntervalLanes {
   [[nodiscard]] static IntervalLanes symmetric(const Numbers& bound) noexcept {
     return from_bounds(R::negative(bound), bound);
   }
-  /// Of bounds in arrays, one of each in a lane.
+  /// Loads bounds from arrays, one of each in a lane.
   [[nodiscard]] static IntervalLanes load(const double* lower, const double* upper) noexcept {
     return from_bounds(R::load(lower), R::load(upper));
   }

@@ -2,7 +2,7 @@
 //
 // A model that is certain to be on one side of a kink has the values of that branch. Where it is not, a
 // continuous function has the enclosure of a chord with a constant error: nothing is developed across a kink.
-// Of a jump, and of the derivatives of all of them, nothing is known then. Need the upward rounding mode.
+// Nothing is known then of a jump, and of the derivatives of all of them. Need the upward rounding mode.
 #pragma once
 
 #include <algorithm>

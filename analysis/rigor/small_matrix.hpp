@@ -1,6 +1,6 @@
 // Operations on small matrices of doubles, for proposals: Eigen's, behind plain functions so that each is
-// compiled once. Nothing here is evidence; rounding is the caller's. Of a result with more than
-// kMostSmallRows rows or columns they throw std::length_error.
+// compiled once. Nothing here is evidence; rounding is the caller's. They throw std::length_error for a
+// result with more than kMostSmallRows rows or columns.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace veritrack::rigor {
 inline constexpr int kMostSmallRows = 20;
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostSmallRows, kMostSmallRows>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostSmallRows, 1>;
-/// What the functions take: any matrix or block of doubles, without a copy.
+/// The argument of the functions: any matrix or block of doubles, without a copy.
 using MatrixView = Eigen::Ref<const Eigen::MatrixXd>;
 
 [[nodiscard]] SmallMatrix identity(Eigen::Index rows);

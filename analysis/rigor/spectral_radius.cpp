@@ -40,7 +40,7 @@ DominantMode dominant_mode(const MatrixView& matrix) {
   const Eigen::EigenSolver<SmallMatrix> solver(small(matrix));
   Eigen::Index place = 0;
   const double radius = solver.eigenvalues().cwiseAbs().maxCoeff(&place);
-  // Of a pair of complex eigenvectors only the sizes of the entries have a meaning.
+  // Only the sizes of the entries of a pair of complex eigenvectors have a meaning.
   const bool is_real = solver.eigenvalues()[place].imag() == 0.0;
   const Eigen::VectorXcd vector = solver.eigenvectors().col(place);
   return {radius, is_real ? Eigen::VectorXd(vector.real()) : Eigen::VectorXd(vector.cwiseAbs())};

@@ -8,7 +8,8 @@
 
 namespace veritrack::rigor {
 
-/// Of a symmetric matrix, whose lower triangle is read. The result is arbitrary where an entry is not finite.
+/// Eigenvalues of a symmetric matrix, whose lower triangle is read. The result is arbitrary where an entry is
+/// not finite.
 [[nodiscard]] double largest_eigenvalue(const MatrixView& symmetric);
 [[nodiscard]] double least_eigenvalue(const MatrixView& symmetric);
 /// The largest |eigenvalue|.
@@ -26,7 +27,7 @@ struct Eigensystem {
   SmallMatrix vectors;  ///< a column for each, of length 1
 };
 [[nodiscard]] Eigensystem symmetric_eigensystem(const MatrixView& symmetric);
-/// Of A v = t B v, B positive definite; v'B v = 1.
+/// The eigensystem of A v = t B v, B positive definite; v'B v = 1.
 [[nodiscard]] Eigensystem pencil_eigensystem(const MatrixView& a, const MatrixView& b);
 
 }  // namespace veritrack::rigor

@@ -9,7 +9,7 @@
 
 namespace veritrack::search {
 
-/// What was seen of a cell.
+/// The result for a cell.
 template <typename Cell>
 struct CellDecision {
   bool holds = false;                             ///< the statement, on the whole cell

@@ -37,7 +37,7 @@ struct ContractionQuestion {
   std::optional<StartCovariance> start_covariance;
   /// The frequency error that counts as settled, rad/sample; none: twice the bound of the long run.
   std::optional<double> settled_frequency_error;
-  /// Of the signal, for what the rounding of the program depends on: its amplitude in signal units, and
+  /// The signal, as far as the rounding of the program depends on it: its amplitude in signal units, and
   /// |omega(k)| <= largest_frequency, rad/sample; by default pi, from above.
   rigor::Interval amplitude = rigor::Interval(1.0);
   double largest_frequency = 0x1.921fb54442d19p+1;

@@ -58,7 +58,7 @@ struct StartResult {
 
 /// The certified results for a design: quantities with words, symbol, formula, source, sense and value.
 struct KalmanFilterResult {
-  // Of the largest certified set under the assumed noise and slew.
+  // The largest certified set under the assumed noise and slew.
   theorems::Quantity contraction_rate = quantities::contraction_rate();
   int rate_window = 1;              ///< samples over which the rate is a geometric mean
   bool about_steady_state = false;  ///< radii are measured from a biased steady state, not from the truth

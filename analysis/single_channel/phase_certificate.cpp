@@ -159,7 +159,7 @@ void set_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set_
   set(result.amplitude_error_radius, "", reach.amplitude);
 }
 
-/// What is promised for the assumed starts, or else for the starts of the set.
+/// Sets the promises for the assumed starts, or else for the starts of the set.
 void set_promises(const PhaseQuestion& question, const PhaseCertificate& certificate,
                   sets::StartResult& starts) {
   const std::optional<PhaseSet>& best = certificate.bound_set ? certificate.bound_set : certificate.set;
@@ -174,7 +174,7 @@ void set_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
   Interval settling;
   Interval settled;
   if (best) {
-    // What rounding alone leaves, nobody waits for.
+    // Nobody waits for the error that rounding alone leaves.
     const std::optional<double> of_ultimate =
         disturbed ? std::optional((Interval(2.0) * ultimate).upper()) : std::nullopt;
     for (const std::optional<double>& level : {question.tracker.settled_frequency_error, of_ultimate}) {
@@ -252,8 +252,7 @@ void add_set_for_more(const PhaseQuestion& question, PhaseCertificate& certifica
   }
 }
 
-/// As far as the question wants. What one set proves of what is required, a search for everything proves,
-/// too.
+/// As far as the question wants. A search for everything proves the requirements that one set proves, too.
 void look_for_sets(const PhaseQuestion& question, PhaseCertificate& certificate, double& level_seen) {
   const sets::ContractionQuestion& asked = question.tracker;
   const PhaseSearch search(question);

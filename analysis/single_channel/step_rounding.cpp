@@ -38,7 +38,7 @@ Interval part(const Interval& x, int index, int count) {
   return Interval::from_bounds(cut(index), cut(index + 1));
 }
 
-/// What is known of the exact prediction, in any orientation.
+/// The known bounds of the exact prediction, in any orientation.
 struct Prediction {
   Interval eigenvalues, u, d;
 };

@@ -123,7 +123,7 @@ Extremes eigenvalue_range(const Eigen::Matrix3d& matrix) {
   return {(*eigenvalues)(0) / two, (*eigenvalues)(2) / two};
 }
 
-/// What the audit needs at every step.
+/// The data that the audit needs at every step.
 struct Context {
   const Theorem29& theorem;
   const Theorem29Input& input;

@@ -10,8 +10,8 @@ namespace {
 using rigor::Verdict;
 using enum FindingKind;
 
-/// "False as stated (thesis, (2.33)): " before the reason, when the claim is in the ledger and REFUTED. What
-/// the scan does not show is neither proved nor refuted: the verdict was one on our reading of it.
+/// "False as stated (thesis, (2.33)): " before the reason, when the claim is in the ledger and REFUTED. A
+/// claim that the scan does not show is neither proved nor refuted: the verdict was one on our reading of it.
 void cite(std::string_view claim, Verdict& verdict, std::string& reason) {
   const PaperFinding* finding = find_paper_finding(claim);
   if (finding != nullptr && finding->kind == illegible) {

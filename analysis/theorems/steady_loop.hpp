@@ -20,9 +20,9 @@ struct SteadyLoop {
   rigor::Interval covariance;  ///< b, predicted covariance of phase and frequency
   rigor::Interval r, epsilon;  ///< of the design
 
-  /// Of the innovation's phase, in (0, 1).
+  /// The gain of the innovation's phase, in (0, 1).
   [[nodiscard]] rigor::Interval phase_gain() const;
-  /// Of the innovation's phase to the frequency, 1/sample.
+  /// The gain from the innovation's phase to the frequency, 1/sample.
   [[nodiscard]] rigor::Interval frequency_gain() const;
   /// det((I - K H) F) = (1 - phase_gain)(1 - epsilon): the product of the two factors by which a sample
   /// multiplies errors of phase and frequency, so that its root is the size of both where they are complex.

@@ -6,7 +6,7 @@
 
 namespace veritrack::bench {
 
-/// What the map is computed of: the state, noise and design of tracker_bench.cpp, the same in every lane.
+/// The operands of the map: the state, noise and design of tracker_bench.cpp, the same in every lane.
 struct MapOperands {
   double state[9];   // NOLINT: plain
   double input[4];   // NOLINT

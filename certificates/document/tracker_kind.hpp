@@ -54,7 +54,7 @@ struct TrackerKind {
   TuningResult (*tune)(const Design& design, const TuningRequest& request) = nullptr;
   /// The objectives of `tune`; the first that fits the assumptions is the default.
   std::span<const std::string_view> tuning_objectives = {};
-  /// The design file names its parameters; `tune` has to be told which of them may change.
+  /// The design file names its parameters; the request of `tune` says which of them may change.
   bool names_parameters = false;
   /// The step as text. Opens its own rounding scopes.
   std::string (*show)(const Design& design, CodeLanguage language) = nullptr;

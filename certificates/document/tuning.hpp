@@ -20,7 +20,7 @@ struct FreeParameter {
   double low = 0.0, high = 0.0;
 };
 
-/// Of "NAME=LOW:HIGH" with two decimals. Empty for other words.
+/// The parameter of "NAME=LOW:HIGH" with two decimals. Empty for other words.
 [[nodiscard]] std::optional<FreeParameter> free_parameter(std::string_view words);
 
 /// The request for a tuned design.

@@ -19,8 +19,8 @@ struct ChangedLoop {
   std::size_t parameter = 0;
   std::optional<model::ProposedVector> vector = std::nullopt;  ///< of the steady state
 
-  /// Of the errors in the frame of the signal, at the middle of the band; empty where the loop has no steady
-  /// state there, or its errors depend on the phase. Needs the upward rounding mode.
+  /// The multipliers of the errors in the frame of the signal, at the middle of the band; empty where the
+  /// loop has no steady state there, or its errors depend on the phase. Needs the upward rounding mode.
   [[nodiscard]] std::optional<Multipliers> in_frame(double value) const;
 
   /// The same in a basis that turns with the signal: how fast errors decay, but not how they turn. Empty

@@ -1,4 +1,4 @@
-// What [require] asks of a linear loop, decided, each with the best number that is proved.
+// The requirements of [require] on a linear loop, decided, each with the best number that is proved.
 #pragma once
 
 #include <string>

@@ -98,7 +98,7 @@ std::string steady_state_table(const model::GainProof& proof, const Model& model
          markdown::table({"State", "Is"}, rows) + note + "\n";
 }
 
-/// Of an unstable loop: what would make it stable.
+/// The changes that would make an unstable loop stable.
 std::string stability_text(const Certificate& certificate, const model::GainProof& proof) {
   std::string text =
       "The steady state below is unstable: errors about it grow, however small they are at first. No stable "
@@ -121,7 +121,7 @@ std::string stability_text(const Certificate& certificate, const model::GainProo
   return text;
 }
 
-/// What a simulation reaches of the bound in the long run.
+/// The share of the bound in the long run that a simulation reaches.
 std::string attack_text(const ModelSets& sets, const Model& model, const ModelAssumptions& assume,
                         const FrequencyUnits& units) {
   const model::GainProof& proof = *sets.gains;

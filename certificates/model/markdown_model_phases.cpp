@@ -44,7 +44,7 @@ std::string modes_of(const model::PhaseProof& proof, const std::optional<Number>
       units.drawn_unit());
 }
 
-/// What an engineer can improve.
+/// The parts of the bound that an engineer can improve.
 std::string phase_budget_table(const model::PhaseErrors& errors, const ModelSets& sets,
                                const FrequencyUnits& units) {
   const bool is_moving = sets.assumed && sets.assumed->tubes.slew > 0.0;

@@ -219,7 +219,7 @@ class ModelClaims {
                ? std::string()
                : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
   }
-  /// Of the linear recursion of a loop that is certified by gains.
+  /// The stability of the linear recursion of a loop that is certified by gains.
   void add_stability(const linear::RadiusBounds& radius) {
     Claim claim = reported("model/stability", words_.constant_tone() + ", without noise");
     if (radius.upper < 1.0) {

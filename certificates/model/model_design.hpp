@@ -70,7 +70,7 @@ struct ModelRequirements {
   std::optional<Number> captured_within;  ///< samples, from start_exactly
   std::optional<Number> bias_below;       ///< rad/sample
   std::optional<Number> ripple_below;     ///< rad/sample
-  // Of the linear loop.
+  // The linear loop.
   std::optional<Number> damping_at_least;       ///< the damping ratio of every mode
   std::optional<Number> settles_like;           ///< its time constant, samples
   std::optional<Number> noise_bandwidth_below;  ///< rad/sample

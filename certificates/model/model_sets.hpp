@@ -24,7 +24,7 @@ struct ModelSets : model::ProvedSets {
   /// cannot be asked.
   std::string no_gains, no_phase_gains;
 
-  /// Of a statement by this set.
+  /// The starts in a statement by this set.
   [[nodiscard]] StartsIn starts_in(const model::ProvedSet& set) const {
     return gains || set.is_without_tubes() ? StartsIn::steady_state
            : bounds_covariance             ? StartsIn::set_with_covariance

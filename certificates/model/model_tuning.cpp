@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 5> kObjectives{"long-run", "for-ever", "r
 
 using Texts = std::vector<std::string>;  ///< the values of the free parameters, as TOML
 
-/// What is certified of some values.
+/// The certified results for some values.
 struct Outcome {
   CertifiedValues values;
   int unmet = 0;     ///< requirements that are not PROVED

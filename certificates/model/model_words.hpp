@@ -16,8 +16,8 @@
 
 namespace veritrack::certificates {
 
-/// What starts are about: a set of the certificate, one of a filter's estimate with bounds of its covariance,
-/// or, in a proof by gains, the steady state.
+/// The kind of starts: in a set of the certificate, in one of a filter's estimate with bounds of its
+/// covariance, or, in a proof by gains, in the steady state.
 enum class StartsIn { set, set_with_covariance, steady_state };
 
 /// The words of the hypotheses.

@@ -15,7 +15,7 @@ namespace veritrack::certificates {
 
 namespace {
 
-// Of the values, and of the way to a border: over the phase each takes a simulation.
+// Steps between the values, and on the way to a border: over the phase each takes a simulation.
 constexpr int kIntervals = 60;
 constexpr int kHalvings = 20;
 constexpr int kIntervalsOverPhase = 30;

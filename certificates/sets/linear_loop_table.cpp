@@ -51,7 +51,7 @@ class Rows {
         in_units(linear::noise_deviation(loop, samples)));
   }
 
-  /// Of the detector's gain, of the phase and of a delay.
+  /// The margins of the detector's gain, of the phase and of a delay.
   void add_margins(const linear::DetectorLoop& loop) {
     const linear::GainMargin margin = linear::gain_margin(loop);
     const std::string low = margin.low > 0.0 ? fmt::format("from {:.3g}", margin.low) : std::string();

@@ -1,4 +1,4 @@
-// What engineers ask of the linear recursion of a tracker's errors, as a table. Not proved.
+// The usual measures of the linear recursion of a tracker's errors, as a table. Not proved.
 #pragma once
 
 #include <optional>

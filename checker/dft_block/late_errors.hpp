@@ -8,7 +8,7 @@
 
 namespace veritrack::checker {
 
-/// What was verified, in its order, and the starts.
+/// The verified rate and stages, in their order, and the starts.
 struct BlockHistory {
   BlockRate rate;
   std::vector<BlockStage> stages;

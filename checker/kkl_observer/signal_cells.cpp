@@ -171,7 +171,7 @@ Size SignalCells::largest(const KklCell& cell, const Function& weights) const {
   FourFilters q{zero, zero, zero, zero};
   Size change{zero, zero};
   for (std::size_t j = 0; j < kRows; ++j) {
-    // Of row'F^2 u and of row'u.
+    // The coefficients of row'F^2 u and of row'u.
     const std::array<Ball, 2> coefficients{centred(at_middle[j], over[j], cell.radius),
                                            centred(at_middle[j] * square(cell.middle.frequency),
                                                    over[j] * square(cell.over.frequency), cell.radius)};

@@ -138,7 +138,7 @@ BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x);
 /// x, where certainly low < x < high.
 BallPolynomial stays_within(const BallPolynomial& x, const BallPolynomial& low, const BallPolynomial& high);
 // Functions with kinks: one branch where that is certain, else a chord and what lies between
-// (docs/model-proof.md, section 19). Of those that may jump, nothing is known.
+// (docs/model-proof.md, section 19). Nothing is known of those that may jump.
 BallPolynomial larger(const BallPolynomial& x, const BallPolynomial& y);
 BallPolynomial clamped(const BallPolynomial& x, const BallPolynomial& low, const BallPolynomial& high);
 /// `a` where `positive` > 0, else `b`.

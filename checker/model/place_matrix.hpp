@@ -15,7 +15,7 @@ PlaceMatrix place_matrix(std::size_t rows, std::size_t columns);
 PlaceMatrix product(const PlaceMatrix& a, const PlaceMatrix& b);
 PlaceMatrix sum(const PlaceMatrix& a, const PlaceMatrix& b, const BallPolynomial& factor_of_b);
 PlaceMatrix mirrored(const PlaceMatrix& a);
-/// Of a lower triangle, row by row.
+/// The symmetric matrix of a lower triangle, row by row.
 PlaceMatrix symmetric_of(const std::vector<BallPolynomial>& triangle, std::size_t rows);
 /// A lower triangular L with L L' = A; unknown unless the pivots are certainly positive.
 PlaceMatrix root_of(const PlaceMatrix& a);

@@ -47,7 +47,7 @@ class RequiredClaims {
 
   /// The requirements of [require].
   [[nodiscard]] std::vector<Requirement> all() const;
-  /// What a claim says, without its hypotheses.
+  /// The statement of a claim, without its hypotheses.
   [[nodiscard]] std::string short_text(const std::string& id) const;
 
  private:

@@ -14,7 +14,7 @@ double factorial(std::ptrdiff_t n) {
   return n <= 1 ? 1.0 : n == 2 ? 2.0 : 6.0;
 }
 
-/// Of the variables with these numbers, in rising order.
+/// The kind of the product of the variables with these numbers, in rising order.
 VectorMonomials::Kind kind_of(const std::vector<std::size_t>& factors, const Firsts& firsts) {
   // The number of orders of equal factors, over that of all of a vector.
   double weight = 1.0;

@@ -16,7 +16,7 @@ constexpr std::int64_t kDefaultBudget = 4'000'000'000;
 
 namespace detail {
 inline std::int64_t budget = kDefaultBudget;
-/// Of this thread.
+/// The operations of this thread.
 inline constinit thread_local std::int64_t spent = 0;
 [[noreturn]] void out_of_budget();
 }  // namespace detail

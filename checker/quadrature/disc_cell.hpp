@@ -37,7 +37,7 @@ class DiscDivision {
   [[nodiscard]] bool may_hold(std::size_t node, double level) const;
   void cut(std::size_t node, std::size_t side, double level);
   void undo_cut(std::size_t node) { nodes_[node].first = 0; }
-  /// Of a cut node.
+  /// The side and the parts of a cut node.
   [[nodiscard]] std::size_t side(std::size_t node) const { return nodes_[node].side; }
   [[nodiscard]] std::size_t part(std::size_t node, std::size_t which) const {
     return nodes_[node].first + which;

@@ -20,7 +20,7 @@ struct OverBox {
 template <std::size_t Size>
 using ChordMatrix = std::array<std::array<Chord, Size>, Size>;
 
-/// Of value + away slope, over the box c +- half_widths.
+/// The matrix value + away slope, over the box c +- half_widths.
 template <std::size_t Size>
 OverBox<Size> over_box(const ChordMatrix<Size>& value, const ChordMatrix<Size>& slope, const Ball& away,
                        const std::array<Ball, kSides>& half_widths) {

@@ -25,7 +25,7 @@ const std::string kMeanSquare = "ekf/rms-frequency-error";
 const std::string kLowestSnr = "ekf/lowest-snr";
 const std::string kPerSample = " rad/sample";
 
-/// Of any unit.
+/// For a number of any unit.
 bool is_zero(const Tree& number) {
   const std::string& text = text_of(number);
   return certainly_equal(from_decimal(text.substr(0, text.find(' '))), zero);
@@ -242,7 +242,7 @@ std::string Guarantee::hypotheses(const std::string& disturbance, const std::str
          " of the amplitude" + (covariance.empty() ? "" : " " + covariance) + ", ";
 }
 
-/// What [require] asks.
+/// The requirement in [require].
 std::string Guarantee::short_text(const std::string& id) const {
   if (id == kBound) {
     return "the frequency error stays below " + frequency_error_below_->text + " for ever";

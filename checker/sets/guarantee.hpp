@@ -88,7 +88,7 @@ class Guarantee {
   [[nodiscard]] std::string lock_words() const { return words_.at_most(lock_limit_); }
   /// Whether frequency errors up to that bound are certainly below it.
   [[nodiscard]] bool is_lock(const std::optional<Ball>& frequency_error) const;
-  /// What [require] asks.
+  /// The requirements of [require].
   [[nodiscard]] const std::vector<Requirement>& required() const { return required_; }
   /// Returns the claim with its sentence. Objects to a claim of this kind that the promises do not prove.
   [[nodiscard]] Claim check(const Tree& claim, const Promises& promises, Objections& objections) const;

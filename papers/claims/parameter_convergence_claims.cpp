@@ -103,7 +103,7 @@ std::vector<Statement> error_statements() {
                      {})};
 }
 
-/// What (5.12) to (5.14) do to P.
+/// The effect of (5.12) to (5.14) on P.
 std::vector<Statement> factor_statements() {
   // One parameter, rbar_{-1} = Lambda = 1, P_{-1} = 100, phi = 0.
   const Interval beta = Interval(1.0) / Interval(100.0);

@@ -3,7 +3,7 @@
 // f is free motion for tau, then the impulse of (pi/2) h = pi rad, at b = 0.2, h = 2, tau = 4.32. Coordinates
 // (a, c) about a centre: centre + a u + c s, u and s near the unstable and the stable direction of a fixed
 // point. Let M be |a| <= 1/4, |c| <= 0.3 about that centre, L and R its parts with |a| <= 0.04 and 0.1 <= a
-// <= 0.22, M' the mirror image -M, moved by two turns. What is verified:
+// <= 0.22, M' the mirror image -M, moved by two turns. This is verified:
 //   f(L) crosses M and f(R) crosses M': no image point has |a| <= 1/4 and |c| >= 0.3 in the target's
 //   coordinates, the left edge of the part has its image left of the target, a < -1/4, the right one right of
 //   it.

@@ -37,7 +37,7 @@ Interval lower_bound(const Efra& efra, const Interval& divisor) {
          (sqrt(Interval(1.0) + Interval(4.0) * efra.beta * efra.delta / square(divisor)) - Interval(1.0));
 }
 
-/// What becomes of a covariance of one parameter when phi is so large that the update takes alpha of it.
+/// The successor of a covariance of one parameter when phi is so large that the update takes alpha of it.
 Interval smallest_successor(const Efra& efra, const Interval& covariance) {
   return covariance * (Interval(1.0) + efra.gamma() - efra.alpha) + efra.beta -
          efra.delta * square(covariance);

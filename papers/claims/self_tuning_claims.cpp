@@ -61,7 +61,7 @@ std::vector<Statement> regression_statements() {
               {})};
 }
 
-/// What (5.12) to (5.14) bound, and what they do not.
+/// The quantities that (5.12) to (5.14) bound, and those that they do not.
 std::vector<Statement> monitoring_statements() {
   // One parameter, rbar_{-1} = r_{-1} = Lambda = 1, P_{-1} = 100, phi = 1.
   const Interval left = Interval(1.0) * (Interval(1.0) + Interval(100.0));

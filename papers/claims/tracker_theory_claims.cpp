@@ -81,7 +81,7 @@ std::vector<Statement> parts_of_theorem_2_8() {
               {})};
 }
 
-/// What a tone of the amplitude 0 shows of its frequency.
+/// The largest output of a tone of amplitude 0 with this frequency.
 Interval output_without_amplitude(const Interval& frequency) {
   Interval x1(0.0);
   Interval x2(0.0);

@@ -39,8 +39,8 @@ struct EstimatorSums {
     }
   }
 
-  /// What the bins say of the offset when amplitude and phase are unknown, with the tone's size in a bin and
-  /// the variance of each part of a bin 1.
+  /// The information of the bins on the offset when amplitude and phase are unknown, with the tone's size in
+  /// a bin and the variance of each part of a bin 1.
   [[nodiscard]] Interval information() const { return slope_slope - square(value_slope) / value_value; }
 
   /// The mean of the error over the variance, to second order in the noise, in the same units (G. E. P. Box,

@@ -11,9 +11,9 @@ struct InitialEstimates {
   double bound = 0.0;  ///< Cramer-Rao, of a standard error from the bins of one block, bins
 };
 
-/// Of a tone of the model (4.9) with a constant offset, |offset| <= 2 bins, in white Gaussian noise; the
-/// amplitude squared over the variance of the samples is `decibels` dB. Seeds 1, ..., runs. The phase does
-/// not matter: turning all bins changes neither (4.35) nor the law of the noise.
+/// Errors for a tone of the model (4.9) with a constant offset, |offset| <= 2 bins, in white Gaussian noise;
+/// the amplitude squared over the variance of the samples is `decibels` dB. Seeds 1, ..., runs. The phase
+/// does not matter: turning all bins changes neither (4.35) nor the law of the noise.
 [[nodiscard]] InitialEstimates initial_estimates(double offset, double decibels, int runs);
 
 }  // namespace veritrack::experiments

@@ -30,7 +30,7 @@ double step_for(double disturbance) {
   return std::min(kLongestStep, 2.0 * std::numbers::pi / (kStepsAPeriod * disturbance));
 }
 
-/// What an observer is fed with.
+/// The input of an observer.
 struct Input {
   double disturbance = kDisturbances[0];  ///< rad/s
   double amplitude = 0.2;                 ///< of the disturbance, signal units

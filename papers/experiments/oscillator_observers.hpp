@@ -15,7 +15,7 @@ namespace veritrack::experiments {
 inline constexpr double kTrueFrequency = 3.0;                               // rad/s
 inline constexpr std::array<double, 3> kDisturbances{10.0, 100.0, 1000.0};  // rad/s
 
-/// Of the frequency estimate in a window, rad/s. A NaN estimate counts as 0.
+/// Statistics of the frequency estimate in a window, rad/s. A NaN estimate counts as 0.
 struct WindowStatistics {
   double mean = 0.0;
   double deviation = 0.0;

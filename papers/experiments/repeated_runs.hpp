@@ -34,7 +34,7 @@ struct Summary {
   double deviation_error = 0.0;  ///< by the fourth moment, for any distribution; NaN for a single run
 };
 
-/// Of at least one value; a NaN makes all of it NaN.
+/// The summary of at least one value; a NaN makes all of it NaN.
 [[nodiscard]] Summary summary_of(std::span<const double> values);
 
 /// The value with this share of the values at or below it, 0 <= share <= 1; NaN counts as infinite.
@@ -46,7 +46,7 @@ struct Median {
   double value = 0.0;
   double error = 0.0;
 };
-/// Of at least one value; the error of a single one is NaN.
+/// The median of at least one value; the error of a single one is NaN.
 [[nodiscard]] Median median_of(std::span<const double> values);
 
 }  // namespace veritrack::experiments

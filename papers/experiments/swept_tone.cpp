@@ -20,7 +20,7 @@ constexpr double kCloseError = -0.01;  // rad/sample
 constexpr double kLargestPart = 0.2;   // of the frequency
 constexpr double kDiverged = std::numeric_limits<double>::infinity();
 
-/// Told the estimate at every sample.
+/// `visit` receives the estimate at every sample.
 template <typename Visit>
 void run_tracker(const ToneRun& run, const trackers::ToneModel<double>& design, double start_variance,
                  const Visit& visit) {

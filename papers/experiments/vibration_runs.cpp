@@ -12,7 +12,7 @@ namespace veritrack::experiments {
 
 namespace {
 
-/// Told y_k and the regulator after every sample.
+/// `visit` receives y_k and the regulator after every sample.
 template <int N, typename EstimatorType, typename Visit>
 void run_regulator(const EstimatorType& estimator, const VibrationStart& start, int samples,
                    const Visit& visit) {

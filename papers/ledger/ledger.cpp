@@ -36,7 +36,7 @@ namespace {
 using rigor::Verdict;
 using theorems::FindingKind;
 
-/// What the publications say of one of their designs.
+/// The results that the publications state for one of their designs.
 certificates::Certificate published_results_of(const certificates::EmbeddedText& file) {
   const rigor::UpwardRounding upward;
   certificates::Certificate certificate;

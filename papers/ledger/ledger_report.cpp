@@ -146,7 +146,7 @@ std::string paper_section(const std::vector<Row>& rows, Paper paper) {
                          {"Claim", "Place", "What it says", "Verdict", "Ground", "Consequence"}, lines));
 }
 
-/// Of what is said of simulations: how much of it comes out.
+/// The share of the statements on simulations that comes out.
 std::string simulated_summary(const std::vector<SimulatedReport>& simulated) {
   std::vector<Entry> all;
   for (const SimulatedReport& report : simulated) {

@@ -75,7 +75,7 @@ Nearness nearness_of(const LimitPoint& point) {
   if (point.error + reserve <= allowed) {
     return Nearness::near;
   }
-  // What is not a number is not near, and a single run decides nothing.
+  // A value that is not a number is not near, and a single run decides nothing.
   return point.error - reserve > allowed || std::isnan(point.error) ? Nearness::far : Nearness::undecided;
 }
 

@@ -45,7 +45,7 @@ struct Threshold {
 /// `points` in rising order.
 [[nodiscard]] Threshold threshold_of(const std::vector<LimitPoint>& points);
 
-/// Told how many of how many experiments have been simulated.
+/// Receives how many of how many experiments have been simulated.
 using StudyProgress = std::function<void(int, int)>;
 
 /// The signal-to-noise ratios of the study, dB: 0, 3, ..., 30.

@@ -24,7 +24,7 @@ struct TrackingExperiment {
 struct TrackingErrors {
   std::vector<double> mean_square;  ///< over all runs, (rad/sample)^2, sample k at index k - 1
   double window_mean = 0.0;         ///< mean of that over the samples from first_sample on
-  /// Of window_mean, from its scatter over batches of runs; NaN for a single run.
+  /// The standard error of window_mean, from its scatter over batches of runs; NaN for a single run.
   double standard_error = 0.0;
   double lost = 0.0;  ///< share of the runs that are lost, in [0, 1]
 };

@@ -26,7 +26,7 @@ constexpr double kReproduced =
     0.1;  // of the seeds: a published figure is one run, and need not be the usual one
 constexpr std::uint64_t kDrawnSeed = 1;
 
-/// Of a start: whether every statement came out often enough, as far as so many seeds can say.
+/// Whether every statement on a start came out often enough, as far as so many seeds can say.
 enum class Reproduced { yes, no, undecided };
 Reproduced reproduces_all(const std::vector<StatementRate>& rates, int seeds) {
   Reproduced all = Reproduced::yes;
@@ -40,7 +40,7 @@ Reproduced reproduces_all(const std::vector<StatementRate>& rates, int seeds) {
   return all;
 }
 
-/// Of a reading: that of its best start.
+/// The verdict on a reading: that of its best start.
 template <typename Member>
 Reproduced reproduced_for_some_start(const std::vector<StartRates>& rates, Member member, int seeds) {
   Reproduced best = Reproduced::no;

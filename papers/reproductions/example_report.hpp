@@ -32,7 +32,7 @@ struct StartRates {
 /// exists with every statement for at least a tenth of the seeds; or `too_few_seeds`.
 [[nodiscard]] std::string reading_sentence(const std::vector<StartRates>& rates, int seeds);
 
-/// Told how many of how many starts have been simulated.
+/// Receives how many of how many starts have been simulated.
 using StartProgress = std::function<void(int, int)>;
 
 /// Writes report.md, its figures and the requested files into `directory`, whole or not at all. Throws

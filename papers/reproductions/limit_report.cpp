@@ -234,7 +234,7 @@ std::string setting_text(const LimitStudy& study) {
 }  // namespace
 
 LimitStudy simulate_limits(int runs, const limits::StudyProgress& progress) {
-  // Of all three parts together; the first has most of them.
+  // The steps of all three parts together; the first has most of them.
   constexpr int kWalks = 132;
   constexpr int kConstant = 22;
   constexpr int kOverTime = 8;

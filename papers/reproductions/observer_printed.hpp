@@ -8,7 +8,7 @@
 
 namespace veritrack::reports::printed {
 
-/// Of the new observer's estimates, for a disturbance of 10, 100 and 1000 rad/s.
+/// The new observer's estimates, for a disturbance of 10, 100 and 1000 rad/s.
 struct EstimateCaption {
   PrintedNumber amplitude_mean, amplitude_deviation;  ///< Figures 1 to 3
   PrintedNumber frequency_mean, frequency_deviation;  ///< Figures 4 to 6

@@ -190,7 +190,7 @@ Findings reproduce_figures_7_9(int starts, const ReproductionProgress& progress)
         kHouUnpublished));
   }
   for (std::size_t i = 0; i < printed::kObserverCaptions.size(); ++i) {
-    // What a search finds refutes "better"; that it finds nothing says little.
+    // A finding of the search refutes "better"; that it finds nothing says little.
     const bool counts =
         paper.hou.settling <= paper.kkl.settling && paper.hou.error.at(i) < paper.kkl.error.at(i);
     result.entries.push_back(entry_of(

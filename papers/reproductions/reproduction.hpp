@@ -15,7 +15,7 @@
 
 namespace veritrack::reports {
 
-/// Told how many of how many pieces of work are done.
+/// Receives how many of how many pieces of work are done.
 using ReproductionProgress = std::function<void(int, int)>;
 
 /// The result of a reproduction: the rows that a ledger collects, and the document about them.

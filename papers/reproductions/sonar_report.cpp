@@ -47,7 +47,7 @@ SetStudy study_of(const printed::SonarSet& set, const Passes& passes, int runs) 
   return study;
 }
 
-/// Of the tones whose starts are looked at, bins; the last is the end of the range of (4.35).
+/// Offsets of the tones whose starts are looked at, bins; the last is the end of the range of (4.35).
 constexpr std::array kStartOffsets{0.0, 0.5, 1.0, 1.42, 2.0};
 constexpr int kStartsForARun = 50;
 using StartErrors = std::array<experiments::InitialEstimates, kStartOffsets.size()>;

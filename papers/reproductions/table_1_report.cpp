@@ -38,7 +38,7 @@ constexpr Conditions kBothSignals{Conditions::Kind::searched, "for either signal
 
 constexpr Conditions kOwnStarts{Conditions::Kind::chosen, "the starts are ours"};
 
-/// What counts as the same with a signal that is not the paper's.
+/// Tolerances for "the same" with a signal that is not the paper's.
 constexpr double kMeanTolerance = 0.03;
 constexpr double kDeviationTolerance = 0.25;
 
@@ -51,7 +51,7 @@ double noise_of(double decibels) {
   return 0.5 * std::pow(10.0, -0.1 * decibels);
 }
 
-/// What is simulated at a signal-to-noise ratio of Table I.
+/// The simulations at a signal-to-noise ratio of Table I.
 struct Table1Point {
   Design best_design = {};
   Notch quadrature_design = {}, real_design = {};

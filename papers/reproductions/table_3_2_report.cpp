@@ -114,7 +114,7 @@ Figure draw_estimates(const SweptTone& tone, const ToneRun& run) {
                           "sample k", panels);
 }
 
-/// What a signal gives.
+/// The results of a signal.
 struct Table32Study {
   std::vector<Sums> sums;             ///< for each row
   std::vector<double> without_noise;  ///< for each row

@@ -8,7 +8,7 @@
 
 namespace veritrack::reports::vibration {
 
-/// Of the order 3.
+/// The ideal controller of order 3.
 [[nodiscard]] Eigen::VectorXd ideal();
 /// The limit of Table 5.1, over rho.
 [[nodiscard]] Eigen::VectorXd table_5_1();

@@ -39,7 +39,7 @@ constexpr double kFourDigits = 1e-4;
 constexpr double kMonitorLimit = 1e9;  // Lambda
 constexpr double kSmallLimit = 1e3;
 
-/// What the starts of all seeds give.
+/// The results of the starts of all seeds.
 struct Study {
   std::vector<double> efra_early, monitored_early;  ///< pole errors after 250 samples, order 3
   std::vector<bool> efra_poles, monitored_poles;    ///< to four digits, after 250 and after 10000

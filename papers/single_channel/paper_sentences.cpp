@@ -126,7 +126,7 @@ std::vector<Statement> response_statements() {
               {})};
 }
 
-/// What is known of the steady states, and whether all are proved.
+/// The known steady states, and whether all are proved.
 struct Biases {
   SteadyStateBias low, high, below_top, top;
 };

@@ -77,7 +77,7 @@ std::optional<tbb::global_control> limited_threads(const Json& request) {
                                             threads);
 }
 
-/// What both kinds of answers have.
+/// The members that both kinds of answers have.
 Json verdicts_json(const Certificate& certificate, const std::string& document) {
   return {{"verdict", certificates::verdict_text(certificate)},
           {"headline", certificates::headline(certificate)},

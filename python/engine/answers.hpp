@@ -1,4 +1,4 @@
-// What the package for Python asks of the program, and the answers: JSON in, JSON out, nothing else.
+// The requests of the package for Python to the program, and the answers: JSON in, JSON out, nothing else.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,9 +9,9 @@ namespace veritrack::python {
 /// Members in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
-/// What the process says of itself before the first request: "version", "identity" (of the file that runs and
-/// of the library that rounds), and "failures" of the arithmetic self-test, which are none where anything may
-/// be certified.
+/// The first message of the process, before any request: "version", "identity" (of the file that runs and of
+/// the library that rounds), and "failures" of the arithmetic self-test, which are none where anything may be
+/// certified.
 [[nodiscard]] Json greeting();
 
 /// The answer to a request, whose member "do" says what is asked for:

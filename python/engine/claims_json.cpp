@@ -47,7 +47,7 @@ Json quantities_json(const std::vector<theorems::Quantity>& quantities) {
   return json;
 }
 
-/// What a number is that a claim has as a decimal.
+/// The meaning of a number that a claim has as a decimal.
 struct ValueText {
   std::string_view name;
   theorems::Sense sense;

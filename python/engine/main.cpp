@@ -28,7 +28,7 @@ void end_with_standard_input() {
   ::_exit(0);
 }
 
-/// Answers go to what was the standard output. What a library may print goes to standard error.
+/// Answers go to what was the standard output. The output of a library goes to standard error.
 std::FILE* take_standard_output() {
   const int descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (descriptor < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
@@ -38,7 +38,7 @@ std::FILE* take_standard_output() {
 }
 
 bool say(std::FILE* output, const veritrack::python::Json& json) {
-  // Bytes that are not UTF-8 can only come from a design, and are told as such in its messages.
+  // Bytes that are not UTF-8 can only come from a design, and are reported as such in its messages.
   const std::string line =
       json.dump(-1, ' ', false, veritrack::python::Json::error_handler_t::replace) + "\n";
   return std::fwrite(line.data(), 1, line.size(), output) == line.size() && std::fflush(output) == 0;

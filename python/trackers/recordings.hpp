@@ -31,7 +31,7 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// What a tracker says after a sample: NaN where it does not say it.
+/// A tracker's report on a sample: NaN where it has no value.
 template <std::size_t Channels, std::size_t Values>
 struct Said {
   std::array<double, Values> state;  ///< the estimate with this sample
@@ -154,7 +154,7 @@ void in_threads(std::size_t size, std::size_t threads, const Work& work) {
 
 /// A batch of trackers of one kind. `Tracker` is copyable, has kChannels, kValues, and
 ///     Said<kChannels, kValues> step(const double* sample),
-/// which is told kChannels doubles, and may throw.
+/// which takes kChannels doubles, and may throw.
 template <typename Tracker>
 class Batch {
  public:

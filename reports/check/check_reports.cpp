@@ -51,7 +51,7 @@ std::string junit_case(const std::string& path, const CheckedRequirement& requir
                                rigor::to_string(requirement.verdict), xml_escaped(requirement.reason));
 }
 
-/// Of the design, and not of the work on it.
+/// A failure of the design, and not of the work on it.
 bool is_failure(const CheckObjection& objection) {
   return objection.kind == CheckObjection::Kind::nothing_required;
 }

@@ -180,7 +180,7 @@ class Changes {
     }
   }
 
-  /// Several claims may have the same bound, which is told once; of another one it is said whose it is.
+  /// Several claims may have the same bound, which is reported once; of another one it is said whose it is.
   void add_bound_change(const std::string& id, Kind kind, const std::string& name,
                         const std::string& change) {
     if (told_.insert(name + change).second) {

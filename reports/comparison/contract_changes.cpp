@@ -96,7 +96,7 @@ void add_texts(const Json* json, Names& texts) {
   }
 }
 
-/// What the changes of one design are told with.
+/// The changes of one design.
 class DesignChanges {
  public:
   /// `prefix` stands in front of the keys.

@@ -66,7 +66,7 @@ std::string shown_lines(const Json& before, const Json& after) {
   return fmt::format("line {}: {} -> {}", line + 1, text(from), text(to));
 }
 
-/// What a number is in rad/sample, where the other one is not in Hz.
+/// The value in rad/sample, where the other one is not in Hz.
 std::string in_radians(const ContractValue& value, Measure measure) {
   const auto number = measured(*value.json, value, measure);
   if (!number || !number->written_in_hertz || !number->sampled) {

@@ -51,7 +51,7 @@ std::string unit_of(const MappedState& state) {
   return state.unit.empty() ? "" : " " + state.unit;
 }
 
-/// What each cell says, for a page.
+/// The values of each cell, for a page.
 std::string values_of(const ModelMap& map) {
   enum Kind : std::size_t { proved, simulated_only, lost };
   page::MapValues values;

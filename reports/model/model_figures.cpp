@@ -33,7 +33,7 @@ std::string in_unit(const char* quantity, const FrequencyUnits& units) {
   return fmt::format("{} [{}]", quantity, units.drawn_unit());
 }
 
-/// What is proved of bias and ripple over each cell of frequencies: a row for each of its ends.
+/// The proved bias and ripple over each cell of frequencies: a row for each of its ends.
 FigureTable table_of_cells(const std::vector<FrequencySlice>& cells, const FrequencyUnits& units) {
   FigureTable table("cells", {in_unit("frequency of the signal", units), in_unit("bias, at least", units),
                               in_unit("bias, at most", units), in_unit("ripple, at most", units)});
@@ -185,7 +185,7 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ProvedSet*>>&
           {std::move(table)}};
 }
 
-/// What each tube of a set tolerates on its own: a row for each end of its cell.
+/// The limit that each tube of a set tolerates on its own: a row for each end of its cell.
 FigureTable table_of_own(const char* name, const char* quantity, const model::TubeSet& set,
                          double model::ProvedTube::*own, const FrequencyUnits& units) {
   FigureTable table(name, {in_unit("frequency of the signal", units), quantity});

@@ -84,7 +84,7 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
                                           : "an unknown number of");
 }
 
-/// What the reader of a map that is not finished has to know.
+/// The sentence for the reader of a map that is not finished.
 std::string stopped_sentence(const ModelMap& map) {
   return map.unfinished() == 0 ? ""
                                : fmt::format(

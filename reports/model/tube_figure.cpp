@@ -136,7 +136,7 @@ std::string words_of_amplitudes(const model::TubeSet& set) {
 
 Figure draw_tube(const model::TrackerModel& design, const model::TubeSet& all, const FrequencyUnits& units) {
   const rigor::NearestRounding nearest;
-  // Of several parts of the amplitudes the one in the middle.
+  // The middle one of several parts of the amplitudes.
   const std::vector<model::TubeSet> parts = model::sets_of_amplitudes(all);
   const model::TubeSet& set = parts[parts.size() / 2];
   const model::TrackerModel tracker = model::on_amplitudes_of(design, set);

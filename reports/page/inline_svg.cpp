@@ -18,7 +18,7 @@ std::string prefixed(std::string value, const std::string& prefix) {
   return value;
 }
 
-/// What gnuplot never writes, and what a page must not have.
+/// Elements that gnuplot never writes, and that a page must not have.
 bool is_unwanted(std::string_view element) {
   constexpr std::array<std::string_view, 4> kUnwanted{"script", "style", "foreignObject", "a"};
   for (const std::string_view one : kUnwanted) {

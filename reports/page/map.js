@@ -23,11 +23,11 @@ for (const figure of document.querySelectorAll("figure.map")) {
     one.setAttribute("aria-label", label);
   };
   make("span", controls, { className: "help", textContent: "Values under the pointer, or with the arrow keys." });
-  const told = document.createElement("p");
-  told.className = "values";
-  told.setAttribute("aria-live", "polite");
-  controls.after(told);
-  told.textContent = map.invitation;
+  const shown = document.createElement("p");
+  shown.className = "values";
+  shown.setAttribute("aria-live", "polite");
+  controls.after(shown);
+  shown.textContent = map.invitation;
 
   const mark = document.createElementNS(svg.namespaceURI, "rect");
   mark.setAttribute("class", "cell");
@@ -42,7 +42,7 @@ for (const figure of document.querySelectorAll("figure.map")) {
   const fromX = (x) => xs[0] + ((x - left) / (right - left)) * (xs[1] - xs[0]);
   const fromY = (y) => ys[0] + ((bottom - y) / (bottom - top)) * (ys[1] - ys[0]);
 
-  // Where cells lie on top of each other, the weakest is told: kinds are in the order of their strength.
+  // Where cells lie on top of each other, the weakest is shown: kinds are in the order of their strength.
   const weakest = (x, y) => {
     let found = null;
     for (const cell of map.cells) {
@@ -61,7 +61,7 @@ for (const figure of document.querySelectorAll("figure.map")) {
   const tell = (cell) => {
     chosen = cell;
     mark.style.display = cell ? "" : "none";
-    told.textContent = cell ? words(cell) : map.invitation;
+    shown.textContent = cell ? words(cell) : map.invitation;
     if (!cell) return;
     const [x0, x1, y0, y1] = [toX(+cell[0]), toX(+cell[1]), toY(+cell[3]), toY(+cell[2])];
     for (const [name, value] of Object.entries({ x: x0, y: y0, width: x1 - x0, height: y1 - y0 })) {

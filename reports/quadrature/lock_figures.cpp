@@ -20,7 +20,7 @@ namespace {
 
 using certificates::Certificate;
 
-/// What a certified set says.
+/// The statement of a certified set.
 struct CertifiedLock {
   double decibels = 0.0;
   double probability = 0.0;  ///< within the assumed samples

@@ -39,7 +39,7 @@ std::optional<double> long_run_bound(const Certificate& certificate) {
   return std::isfinite(bound) && bound > 0.0 ? std::optional(bound) : std::nullopt;
 }
 
-/// Bounds that far below the others are told in words: as lines they would take most of the axis.
+/// Bounds that far below the others are written in words: as lines they would take most of the axis.
 constexpr double kWorthDrawing = 1e-3;
 
 /// "Too small to draw: start error that (2.45) admits, printed: 2.24e-14." Takes them out of the levels.
@@ -157,7 +157,7 @@ FigureTable table_of_tube(const certificates::FrequencyErrorBounds& tube) {
   for (std::size_t k = 0; k < tube.bound.size(); ++k) {
     std::vector<FigureTable::Cell> row{static_cast<double>(k), tube.bound[k]};
     for (const std::vector<double>& run : tube.runs) {
-      // What rounding leaves of an error that is gone is not worth a decade of the picture.
+      // Rounding that remains of a vanished error is not worth a decade of the picture.
       row.emplace_back(run[k] > 1e-3 * tube.bound.back() ? run[k] : std::nan(""));
     }
     table.add(std::move(row));

@@ -38,7 +38,7 @@ struct AssumptionFindings {
   double largest_slew = 0.0;        ///< rad/sample per sample, from one stretch to the next
   double slew_deviation = 0.0;      ///< how uncertain that one is, for white noise
   double slew_root_mean_square = 0.0;
-  /// Of the tracker's estimate less the fitted frequency, from stretch to stretch, rad/sample.
+  /// The mean of the tracker's estimate less the fitted frequency, from stretch to stretch, rad/sample.
   double bias = 0.0;
   double bias_deviation = 0.0;      ///< of that mean
   SampleRanges noise_exceeded;      ///< beyond the bound, or more than the assumed deviation allows

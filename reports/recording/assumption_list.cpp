@@ -67,7 +67,7 @@ class List {
     const Waveform waveform(assume_.signal, report_.result.channels);
     const std::string assumed = waveform.is_tone() ? "a tone alone" : "the signal of the design file";
     if (!is_gaussian()) {
-      // What else there is counts as noise, and may be within the bound.
+      // Anything else counts as noise, and may be within the bound.
       const bool is_beyond = found_.noise_exceeded.count() > 0 && !names.empty();
       const std::string seen = fmt::format("{}", fmt::join(names, ", "));
       rows_.push_back({"signal", assumed + ", and noise within its bound", seen,

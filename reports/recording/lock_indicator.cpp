@@ -42,7 +42,7 @@ void LockIndicator::push(const RecordedSample& sample, double frequency) {
   count_ = std::min(count_ + 1, power_.size());
   if (++next_ == power_.size()) {
     next_ = 0;
-    // What rounding has left in the running sums goes with every round.
+    // The rounding left in the running sums goes with every round.
     for (std::size_t i = 0; i < turned_.size(); ++i) {
       turned_sums_[i] = std::accumulate(turned_[i].begin(), turned_[i].end(), std::complex<double>(0.0));
     }

@@ -10,7 +10,7 @@
 
 namespace veritrack::reports {
 
-/// Of the power of the last `window` samples, the share that is in a tone that turns with the estimated
+/// The share of the power of the last `window` samples that is in a tone that turns with the estimated
 /// frequency. With psi(k+1) = psi(k) + estimate(k) it is
 ///     |sum y(k) e^{-i psi(k)}|^2 / (n sum |y(k)|^2)
 /// for two channels and n samples, and twice that for one (a tone has half of its power in e^{i psi}). It is

@@ -32,8 +32,8 @@ class ToneFit {
   /// `samples` of the length, none missing; `frequency` in rad/sample.
   [[nodiscard]] const FittedTone& fit(std::span<const RecordedSample> samples, double frequency);
 
-  /// Of the stretch that was fitted last: amplitude and phase at a sample as amplitude e^{i phase}, signal
-  /// units.
+  /// The tone of the stretch that was fitted last: amplitude and phase at a sample as amplitude e^{i phase},
+  /// signal units.
   [[nodiscard]] std::complex<double> tone(std::size_t k) const { return values_[k]; }
 
  private:

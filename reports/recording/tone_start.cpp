@@ -47,7 +47,7 @@ std::vector<std::complex<double>> closest_means(std::span<const RecordedSample> 
       right(row + 1) = sample.quadrature;
     }
   }
-  // What cannot be told apart gets the shortest solution.
+  // Tones that cannot be told apart get the shortest solution.
   const Eigen::VectorXd found = matrix.completeOrthogonalDecomposition().solve(right);
   std::vector<std::complex<double>> means;
   for (std::size_t i = 0; i < harmonics.size(); ++i) {

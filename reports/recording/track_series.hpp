@@ -10,7 +10,7 @@
 
 namespace veritrack::reports {
 
-/// Of a sample, from best to worst.
+/// The state of a sample, from best to worst.
 enum class TrackState {
   lock,
   settling,  ///< just started: too early to tell
@@ -31,7 +31,7 @@ struct TrackedSample {
   TrackState state = TrackState::untracked;
 };
 
-/// Of one quantity over a stretch, where it is a number.
+/// The spread of one quantity over a stretch, where it is a number.
 struct Spread {
   std::int64_t count = 0;
   double sum = 0.0;

@@ -38,7 +38,7 @@ FigureTable table_of_runs(const std::vector<ClosedLoopRun>& runs) {
   return table;
 }
 
-/// What is proved of the output: at every sample, from some sample on.
+/// The proved bound of the output: at every sample, from some sample on.
 FigureTable table_of_bounds(const theorems::Derivation& found, double samples) {
   FigureTable table("bounds", {"sample", "proved bound of the output"});
   const double ever = find_quantity(found, "output_bound").value.upper();

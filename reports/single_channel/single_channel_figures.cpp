@@ -40,7 +40,7 @@ std::vector<Derivation> verified_biases(const Certificate& certificate) {
 
 Figure bias_figure(const std::vector<Derivation>& biases) {
   std::string script = preamble(360, "frequency of the signal, rad/sample", "frequency error, rad/sample");
-  // What is exactly zero has no scale.
+  // A bias that is exactly zero has no scale.
   const bool is_zero = std::all_of(biases.begin(), biases.end(), [](const Derivation& bias) {
     return value_of(bias, "min_error").lower() == 0.0 && value_of(bias, "max_error").upper() == 0.0;
   });

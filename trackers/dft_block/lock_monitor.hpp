@@ -85,7 +85,7 @@ class BlockLockMonitor {
     ++blocks_;
   }
 
-  /// Of the last block, the share of power that the estimate leaves: 0 for a tone without noise in lock,
+  /// The share of the power of the last block that the estimate leaves: 0 for a tone without noise in lock,
   /// about 1 in a false lock, and more where the estimate is worse than 0.
   [[nodiscard]] Scalar last_share() const { return last_; }
   /// The same over the last blocks; 1 before the first.

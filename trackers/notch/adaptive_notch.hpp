@@ -64,7 +64,7 @@ class RealNotch {
 
   /// rad/sample, in (0, pi).
   [[nodiscard]] Scalar frequency() const { return std::acos(a_ / Scalar(-2)); }
-  /// What the notch left of the last sample, signal units.
+  /// The remainder of the last sample after the notch, signal units.
   [[nodiscard]] Scalar error() const { return e1_; }
   /// de/da of the last sample, signal units.
   [[nodiscard]] Scalar gradient() const { return g1_; }
@@ -106,7 +106,7 @@ class QuadratureNotch {
 
   /// rad/sample, not wrapped.
   [[nodiscard]] Scalar frequency() const { return frequency_; }
-  /// What the notch left of the last sample, signal units.
+  /// The remainder of the last sample after the notch, signal units.
   [[nodiscard]] Complex error() const { return e_; }
   /// de/dfrequency of the last sample, signal units.
   [[nodiscard]] Complex gradient() const { return g_; }

@@ -61,7 +61,7 @@ class CaptureTrack {
   /// four states.
   CaptureTrack(const CaptureProblem& problem, const PhaseCell& phases);
 
-  /// Of the signal, without noise.
+  /// The samples of the signal, without noise.
   [[nodiscard]] const std::vector<CaptureModel>& samples(std::size_t sample);
   /// Errors of these samples, all channels together, are at most this: the noise, and the effect of
   /// amplitudes that vary. Infinite when nothing is known.

@@ -37,7 +37,7 @@ class BallMatrix {
 [[nodiscard]] BallMatrix operator-(const BallMatrix& a, const BallMatrix& b);
 [[nodiscard]] BallMatrix scaled(const BallMatrix& a, const rigor::BallModel& factor);
 [[nodiscard]] BallMatrix transposed(const BallMatrix& a);
-/// Of a lower triangle, row by row.
+/// The symmetric matrix of a lower triangle, row by row.
 [[nodiscard]] BallMatrix symmetric(const std::vector<rigor::BallModel>& triangle);
 /// A P A'.
 [[nodiscard]] BallMatrix congruent(const BallMatrix& a, const BallMatrix& p);

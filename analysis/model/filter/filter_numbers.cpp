@@ -8,7 +8,7 @@ namespace veritrack::model::detail {
 
 namespace {
 
-/// Of entries row by row.
+/// The matrix of these entries, row by row.
 SmallMatrix matrix_of_rows(const double* entries, Index rows, Index columns) {
   SmallMatrix matrix(rows, columns);
   for (Index i = 0; i < rows; ++i) {

@@ -8,9 +8,9 @@
 namespace veritrack::model {
 
 /// The same function of real numbers, where of a product or quotient of three factors or more the one that
-/// vanishes in the steady state (a difference that is below 2^-10 of its terms) comes last. What errors of
-/// the others do to each other is then multiplied by nearly 0. `values`: those of the registers of `program`
-/// at some states of the steady state, which decide the order and nothing else.
+/// vanishes in the steady state (a difference that is below 2^-10 of its terms) comes last. The effect of
+/// errors of the others on each other is then multiplied by nearly 0. `values`: those of the registers of
+/// `program` at some states of the steady state, which decide the order and nothing else.
 [[nodiscard]] trackers::StraightLineProgram with_vanishing_factors_last(
     const trackers::StraightLineProgram& program, const std::vector<std::vector<double>>& values);
 

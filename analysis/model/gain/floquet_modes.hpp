@@ -23,9 +23,10 @@ struct FloquetBasis {
 
 /// `jacobians`: n^2 x grid.size(), column-major matrices A(phi). A mode is p with A(phi) p(phi) = lambda
 /// p(phi + omega). Each multiplier has others beside it, lambda e^(i h omega); taken is the one with the
-/// argument within omega / 2 and the fewest harmonics. What decays by a factor of 20 or more while the phase
-/// turns by a radian is no mode (its size may depend on the phase by orders of magnitude), nor are states
-/// that only delay others: unit vectors complete the basis. By state: no modes where there is no such basis.
+/// argument within omega / 2 and the fewest harmonics. Parts that decay by a factor of 20 or more while the
+/// phase turns by a radian are no modes (their size may depend on the phase by orders of magnitude), nor are
+/// states that only delay others: unit vectors complete the basis. By state: no modes where there is no such
+/// basis.
 [[nodiscard]] FloquetBasis floquet_modes(const PhaseGrid& grid, double omega,
                                          const Eigen::MatrixXd& jacobians, Eigen::Index states,
                                          FloquetGauge gauge);

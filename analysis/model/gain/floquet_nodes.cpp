@@ -82,7 +82,7 @@ Eigen::MatrixXd on_grid(const Eigen::MatrixXcd& harmonics, const PhaseGrid& grid
 /// block for each group of modes, where their multipliers differ.
 class Refinement {
  public:
-  /// Of the basis no more than these harmonics are kept; the grid resolves half as many again, because the
+  /// No more than these harmonics of the basis are kept; the grid resolves half as many again, because the
   /// aliases of products would grow from step to step.
   Refinement(const TrackedTone& tone, const NodeCurve& curve, const PhaseGrid& grid, int harmonics,
              FloquetBasis basis)
@@ -143,7 +143,7 @@ class Refinement {
   void even_out_fast() {
     constexpr int kHarmonics = 8;
     constexpr double kMost = 1.2;  // of the scale's logarithm
-    constexpr double kSlow = 0.9;  // where all decay faster there is nothing to mend
+    constexpr double kSlow = 0.9;  // where all decay faster there is nothing to correct
     const Index fast = n_ - m_;
     if (fast == 0) {
       return;
@@ -251,7 +251,7 @@ class Refinement {
     return size;
   }
 
-  /// Whether the multipliers of two groups differ. What mixes those that do not stays in the matrix.
+  /// Whether the multipliers of two groups differ. The coupling of those that do not stays in the matrix.
   [[nodiscard]] bool are_apart(const Group& a, const Group& b) const {
     constexpr double kClose = 0.2;  // against how fast they decay
     if (a.first == b.first) {
@@ -268,7 +268,7 @@ class Refinement {
     return true;
   }
 
-  /// What changes with the phase, and what mixes groups.
+  /// Removes the change with the phase, and the coupling of groups.
   bool separate_modes(Eigen::MatrixXd& factor) const {
     const Eigen::MatrixXcd waves = harmonics_of(seen_, harmonics_);
     for (int h = 0; h <= harmonics_; ++h) {
@@ -294,8 +294,8 @@ class Refinement {
     return true;
   }
 
-  /// What couples modes and the others, which decay faster: by the recursions for it, each in the direction
-  /// in which it converges.
+  /// Separates the modes from the others, which decay faster: by the recursions for their coupling, each in
+  /// the direction in which it converges.
   bool separate_fast(Eigen::MatrixXd& factor) const {
     constexpr int kMostRounds = 3000;
     const Index fast = n_ - m_;

@@ -228,7 +228,7 @@ FrameValue acos(const FrameValue& a) {
 }
 
 FrameValue asin(const FrameValue& a) {
-  // Of the sine of an angle: the angle, below a quarter turn.
+  // From the sine of an angle: the angle, below a quarter turn.
   if (a.kind() == Kind::waves && a.waves().size() == 1) {
     const auto& [monomial, weights] = *a.waves().begin();
     const bool is_sine = monomial.magnitude == 0 && monomial.noise == 0 && monomial.factors.empty() &&

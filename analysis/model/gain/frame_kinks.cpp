@@ -25,7 +25,7 @@ Interval middle_of(const Frame& frame, const FrameLine& line) {
   return line.constant + line.per_frequency * frame.band();
 }
 
-/// What a deviation of at most `bound` reaches beyond `distance`.
+/// The excess of a deviation of at most `bound` over `distance`.
 double beyond(double bound, double distance) {
   return bound > distance ? rigor::sub_up(bound, distance) : bound <= distance ? 0.0 : bound;
 }

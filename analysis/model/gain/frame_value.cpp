@@ -99,7 +99,7 @@ double FrameRules::exact_product(double a, double b) {
 }
 
 void FrameRules::add_wave(Waves& waves, Monomial monomial, WaveWeights weights) {
-  // Of M and its conjugate one stands for both; a real one has no imaginary part.
+  // One of M and its conjugate stands for both; a real one has no imaginary part.
   const int first = monomial.order != 0       ? monomial.order
                     : monomial.angles.empty() ? 0
                                               : monomial.angles.begin()->second;

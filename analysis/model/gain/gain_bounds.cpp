@@ -259,7 +259,8 @@ std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance)
   result.for_ever = result.from_block.front();
   const Numbers settled = in_the_long_run(disturbance, sequence->back());
   result.long_run = rigor::add_up(settled.back(), bias);
-  // What turns with the signal has the mean 0, but for the share by which the error of its angle changes it.
+  // Each part that turns with the signal has the mean 0, but for the share by which the error of its angle
+  // changes it.
   result.mean = settled.back();
   for (const LoopNetwork::TurningPart& part : network_.turning) {
     const double share = std::min(1.0, settled[part.angle]);

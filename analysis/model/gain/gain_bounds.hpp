@@ -46,7 +46,7 @@ class GainBounds {
   /// The worst-case gain from inputs of this cause to the frequency error: its size in the long run where the
   /// loop is linear.
   [[nodiscard]] double linear_error(double noise, double slew) const;
-  /// What the listed steady state, which is none exactly, contributes to the frequency error.
+  /// The frequency error from the listed steady state, which is only approximate.
   [[nodiscard]] double residual_error() const;
 
   /// Empty where no bound closes.

@@ -19,7 +19,7 @@ struct GridFunction {
   std::vector<double> error;  ///< by component: the distance from it
   // Suprema by component: of it, and of its differences along the phase.
   std::vector<double> largest, first_difference, second_difference;
-  /// Of half of what it changes over the part, and of the differences of that along the phase.
+  /// Suprema of half of its change over the part, and of the differences of that along the phase.
   std::vector<double> lean, lean_difference;
 };
 

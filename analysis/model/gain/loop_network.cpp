@@ -163,7 +163,7 @@ class Assembly {
     }
   }
 
-  /// What a step leaves of the steady state of state i.
+  /// The residual of the steady state of state i after a step.
   [[nodiscard]] Interval residual_of(std::size_t i) const {
     const SteadyValue& each = (*steady_)[i];
     Interval residual =
@@ -255,7 +255,7 @@ class Assembly {
     }
   }
 
-  /// What turns with the signal is known: it is taken out of the sums, and its drift is put in
+  /// Each part that turns with the signal is known: it is taken out of the sums, and its drift is put in
   /// (docs/gain-proof.md, section 9).
   void average_ripples() {
     constexpr int kParts = 1024;

@@ -33,7 +33,7 @@ struct NetworkInput {
   std::function<double(double noise, double slew, const std::vector<double>& bounds)> size;
 };
 
-/// Of a form: the weights of an input within the sample, as many as it has components.
+/// The weights of an input in a form within the sample, as many as it has components.
 struct DirectTerm {
   std::size_t input = 0;
   double weight = 0.0;  ///< the length of the weights, at most

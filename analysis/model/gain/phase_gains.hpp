@@ -10,7 +10,7 @@
 
 namespace veritrack::model {
 
-/// Of the frequency error, rad/sample.
+/// Bounds of the frequency error, rad/sample.
 struct PhaseErrors {
   double for_ever = 0.0;
   std::vector<double> from_block;  ///< from the first sample of each block of the horizon on
@@ -40,7 +40,7 @@ class PhaseGains {
   /// Empty where no bound closes, and for a slew beyond that with which this was made.
   [[nodiscard]] std::optional<PhaseErrors> errors(const LoopDisturbance& disturbance) const;
   [[nodiscard]] std::size_t states() const { return parts_.front().states; }
-  /// What the sums on the grid miss of the gain from noise to the frequency error, relative to it.
+  /// The error of the sums on the grid in the gain from noise to the frequency error, relative to it.
   [[nodiscard]] double missed_share() const;
   /// From noise to the frequency error, without that.
   [[nodiscard]] double largest_gain() const { return linear_error({1.0, 0.0, {}}); }

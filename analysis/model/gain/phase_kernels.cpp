@@ -82,7 +82,8 @@ class PhaseKernels::LagSums {
     }
   }
 
-  /// By point: the larger one of both sides. What is no number has made the sizes of its column NaN before.
+  /// By point: the larger one of both sides. A value that is no number has made the sizes of its column NaN
+  /// before.
   const Vector& values(std::size_t column) {
     find_side(column, 0, value_);
     find_side(column, 1, side_);

@@ -1,5 +1,5 @@
-// What past inputs of a loop do to its forms, by the phases at which they came in
-// (docs/gain-proof.md, section 10).
+// The effect of past inputs of a loop on its forms, by the phases at which they came in (docs/gain-proof.md,
+// section 10).
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ class PhaseKernels {
   static constexpr std::size_t kBlocks = 64;
   static constexpr std::size_t kNoise = 0, kSlew = 1, kFirstGate = 2;  ///< columns
 
-  /// Of part number `index`, with the slew with which `parts` were widened. Needs the upward rounding mode.
+  /// The kernels of part number `index`, with the slew with which `parts` were widened. Needs the upward
+  /// rounding mode.
   PhaseKernels(const std::vector<PhasePart>& parts, std::size_t index, const PhaseGridding& gridding,
                double slew);
 
@@ -34,8 +35,8 @@ class PhaseKernels {
   /// The second stage.
   void find(const PhaseTotals& totals);
 
-  /// What deviations of these sizes do to states, by blocks of lags from which on, and at last beyond the
-  /// horizon. `peak`: for all of `all`.
+  /// The effect of deviations of these sizes on states, by blocks of lags from which on, and at last beyond
+  /// the horizon. `peak`: for all of `all`.
   [[nodiscard]] static std::optional<std::vector<double>> peak_of(const std::vector<PhaseKernels>& all,
                                                                   const std::vector<double>& start);
   /// By form: a bound of what starts do from this block on.
@@ -50,15 +51,16 @@ class PhaseKernels {
   [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
   [[nodiscard]] std::size_t forms() const { return part_->forms.size(); }
   [[nodiscard]] std::size_t columns() const { return columns_.size(); }
-  /// Of noise or slew, at a point of the grid.
+  /// The gain from noise or slew, at a point of the grid.
   [[nodiscard]] double gain(std::size_t form, std::size_t column, std::size_t point) const {
     return sums_[form][column][point];
   }
-  /// Of a gate, at a point of the grid: by windows.
+  /// The gains from a gate, at a point of the grid: by windows.
   [[nodiscard]] const double* gains(std::size_t form, std::size_t column, std::size_t point) const {
     return sums_[form][column].data() + point * windows_.size();
   }
-  /// Of late inputs of a gate, by the cell of phases at which they came in; empty where there are none.
+  /// The gains from late inputs of a gate, by the cell of phases at which they came in; empty where there are
+  /// none.
   [[nodiscard]] const double* late(std::size_t form, std::size_t column, std::size_t point) const {
     return late_[form][column].data() + point * phases_;
   }
@@ -66,7 +68,7 @@ class PhaseKernels {
   /// The sizes of an input by cells of phases, as late inputs may have them (near the ends of a cell, those
   /// of the next one).
   [[nodiscard]] std::vector<double> late_sizes(const std::vector<double>& sizes) const;
-  /// What the sums on the grid miss, times the largest size of the input.
+  /// The part that the sums on the grid miss, times the largest size of the input.
   [[nodiscard]] double missed(std::size_t form, std::size_t column) const { return missed_[form][column]; }
   [[nodiscard]] double residual(std::size_t form) const { return residual_[form]; }
 
@@ -80,7 +82,7 @@ class PhaseKernels {
     Vector leaned;    ///< the same for half of what the form changes over the part
     Vector mistaken;  ///< sum of |G_k| error at lag k
   };
-  /// What is known of the part and its neighbours.
+  /// The known bounds of the part and its neighbours.
   struct Neighbours {
     std::size_t reach = 0;
     Vector off;                              ///< of matrices, from the line of the part
@@ -106,10 +108,11 @@ class PhaseKernels {
   [[nodiscard]] LateTurn late_turn() const;
   void find_late();
   struct LateBlock;
-  /// Of the lags of a block; `power`: at both ends of the part, which goes on to the next block.
+  /// The lags of a block; `power`: at both ends of the part, which goes on to the next block.
   [[nodiscard]] LateBlock late_block(std::size_t block, std::array<Vector, 2>& power);
   void add_late_block(const LateBlock& of, bool is_last);
-  /// What a product of three functions that are linear in the frequency is beyond its values at both ends.
+  /// The excess of a product of three functions that are linear in the frequency over its values at both
+  /// ends.
   void add_knot(const Vector& size, const Vector& lean);
   /// That of the part, at one of its ends.
   [[nodiscard]] Vector end_matrix(std::size_t end) const;

@@ -109,7 +109,7 @@ PhaseKernels::LateTurn PhaseKernels::late_turn() const {
           static_cast<std::size_t>(std::ceil(0.5 * high * points))};
 }
 
-/// Of the powers of a block of lags.
+/// The powers of a block of lags.
 struct PhaseKernels::LateBlock {
   Vector sum, most, lean;  ///< of sizes; the largest of them; of half of what both ends differ by
   Vector bend;             ///< how far powers are from the line between those at both ends of the block

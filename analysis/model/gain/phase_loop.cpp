@@ -102,7 +102,7 @@ class CellPowers {
   }
 
   [[nodiscard]] const std::vector<double>& power() const { return power_; }
-  /// Of absolute values, until now.
+  /// The sums of absolute values, until now.
   [[nodiscard]] const std::vector<double>& sums() const { return sum_; }
   /// Whether some entry is more than this share of the largest one that it was.
   [[nodiscard]] bool is_above(double share) const {
@@ -207,7 +207,8 @@ bool PhaseLoop::find_parts(bool with_slew, Fineness& best) {
   const std::size_t fewest_parts =
       std::isfinite(best.missed) ? std::max<std::size_t>(best.gridding.parts / 2, 2) : 2;
   const std::size_t most_parts = (with_slew ? 128 : gridding_.late_blocks > 0 ? 16 : 64) / cells_.size();
-  // What may be missed of the gain: with a slew finer parts take minutes, because all look at each other.
+  // The share of the gain that may be missed: with a slew finer parts take minutes, because all look at each
+  // other.
   const bool is_late = gridding_.late_blocks > 0;  // then every part takes seconds in both programs
   const double fine = with_slew || is_late ? 0.1 : 0.06;
   constexpr double kBetter = 0.9;

@@ -105,7 +105,7 @@ void find_grid_functions(const std::vector<PhaseStep>& steps, PhasePart& part) {
   part.slew = on_grid([](const PhaseStep& step) -> const auto& { return step.slew; });
 }
 
-/// What the bends of basis and curve over the frequency do.
+/// The effect of the bends of basis and curve over the frequency.
 void find_bends(const FloquetCell& cell, PhasePart& part) {
   const std::size_t n = part.states;
   part.slew_bend.assign(n, 0.0);

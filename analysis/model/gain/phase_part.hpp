@@ -53,8 +53,8 @@ struct PhasePart {
   std::optional<std::pair<std::size_t, rigor::Interval>> frequency_state;
 };
 
-/// Of part number `part`. Empty where its matrix is not known. Throws NoFrame where the rules do not cover
-/// the loop. Needs the upward rounding mode.
+/// Part number `part`. Empty where its matrix is not known. Throws NoFrame where the rules do not cover the
+/// loop. Needs the upward rounding mode.
 [[nodiscard]] std::optional<PhasePart> phase_part(const TrackerModel& tracker, const FloquetCell& cell,
                                                   const PhaseGridding& gridding, std::size_t part);
 

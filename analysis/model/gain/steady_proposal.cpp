@@ -10,7 +10,7 @@ namespace veritrack::model {
 
 namespace {
 
-/// What is known before: turns, and the parts of a vector.
+/// The form as far as it is known before: turns, and the parts of a vector.
 std::vector<SteadyValue> form_of_steady_state(const TrackerModel& tracker,
                                               const std::optional<ProposedVector>& vector) {
   std::vector<SteadyValue> steady;
@@ -55,7 +55,7 @@ std::optional<Eigen::VectorXd> steady_at(const TrackerModel& tracker, std::vecto
     double size = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
       state(i) -= change(i);
-      // What a step adds to the state is rounded, however small the state is in its unit.
+      // The increment of the state in a step is rounded, however small the state is in its unit.
       double scale = std::max(std::fabs(state(i)), 1e-6);
       for (Eigen::Index j = 0; j < n; ++j) {
         const bool is_angle = is_direction(tracker, steady, static_cast<std::size_t>(j));
@@ -114,7 +114,7 @@ Eigen::VectorXd state_with(const std::vector<SteadyValue>& steady, const Eigen::
   return state;
 }
 
-/// Of vectors, by the place of the real part.
+/// The lengths of vectors, by the place of the real part.
 Eigen::VectorXd lengths_of(const TrackedTone& tone, const std::vector<SteadyValue>& steady, double omega) {
   Eigen::VectorXd lengths =
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(steady.size()), tone.amplitude);

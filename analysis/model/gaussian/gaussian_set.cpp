@@ -262,16 +262,16 @@ TubeSet prove_gaussian_set(const TrackedTone& tone, const TrackerModel& model, d
   shape.deadline = task.deadline;
   BandSettings settings = settings_of(tone, shape, low, high);
   settings.tube.shape.exponent = std::log(task.samples / task.probability);
-  double told = 0.0;
-  const auto tell = [&](double share) {
-    told = std::max(told, share);
+  double most = 0.0;
+  const auto report = [&](double share) {
+    most = std::max(most, share);
     if (progress) {
-      progress(told);
+      progress(most);
     }
   };
   constexpr double kOfProposals = 0.5;  // of the time, about
   settings.decided = [&](const TubeProposal& cell, bool /*may_be_halved*/) {
-    tell(kOfProposals * (cell.frequency + cell.half_width - low) / (high - low));
+    report(kOfProposals * (cell.frequency + cell.half_width - low) / (high - low));
     return true;
   };
   BandProposal band = propose_band(tone, low, high, settings);
@@ -284,10 +284,10 @@ TubeSet prove_gaussian_set(const TrackedTone& tone, const TrackerModel& model, d
   for (TubeProposal& cell : band.cells) {
     widen(*cell.tube);
   }
-  BandSearch search(model, band, task, [&](double share) { tell(kOfProposals + 0.5 * share); });
+  BandSearch search(model, band, task, [&](double share) { report(kOfProposals + 0.5 * share); });
   const bool is_found = task.largest_deviation ? search.with_largest_deviation() > 0.0
                                                : search.with_any_constant(task.deviation);
-  tell(1.0);
+  report(1.0);
   if (!is_found) {
     set.reasons.push_back(
         task.deadline.has_struck() ? std::string(kTimeLimit)

@@ -59,16 +59,16 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
   const rigor::NearestRounding nearest;
   BandSettings settings = settings_of(tone, task, low, high);
   settings.one_shape = true;
-  double told = 0.0;
-  const auto tell = [&](double share) {
-    told = std::max(told, share);
+  double most = 0.0;
+  const auto report = [&](double share) {
+    most = std::max(most, share);
     if (progress) {
-      progress(told);
+      progress(most);
     }
   };
   constexpr double kOfProposals = 0.5;  // of the time, about
   settings.decided = [&](const TubeProposal& cell, bool /*may_be_halved*/) {
-    tell(kOfProposals * (cell.frequency + cell.half_width - low) / (high - low));
+    report(kOfProposals * (cell.frequency + cell.half_width - low) / (high - low));
     return true;
   };
   const BandProposal band = propose_band(tone, low, high, settings);
@@ -84,7 +84,7 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
   for (int tries = 0; tries < kMostTries && !is_found && run.end > run.first; ++tries) {
     set.tubes.clear();
     MovingSearch search(model, std::span(band.cells).subspan(run.first, run.end - run.first), task.deadline,
-                        set, [&](double share) { tell(kOfProposals + 0.4 * share); });
+                        set, [&](double share) { report(kOfProposals + 0.4 * share); });
     is_found = task.largest_slew ? search.find_slew(task.known_slew) : search.find_levels();
     if (is_found && task.largest_slew && task.of_each_cell) {
       search.find_own_slews();
@@ -117,7 +117,7 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
             : fmt::format("no radius was proved for noise {:.4g} and slew {:.4g} rad/sample per sample{}",
                           task.noise, task.slew, place));
   }
-  tell(1.0);
+  report(1.0);
   return set;
 }
 

@@ -67,7 +67,7 @@ class GainSets {
     return rigor::add_up(widened(*gains_, long_run), kRounding);
   }
 
-  /// Of starts in the steady state.
+  /// A set for starts in the steady state.
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance) const {
     ProvedSet set;
     set.tubes.name = name;

@@ -40,7 +40,7 @@ class PhaseSets {
   }
 
  private:
-  /// What is asked of each part at a constant frequency.
+  /// The bounds that are asked of each part at a constant frequency.
   struct OfPart {
     std::optional<PhaseErrors> still, assumed, from_starts, at_noise, at_reach;
     double noise = 0.0, reach = 0.0;
@@ -169,7 +169,7 @@ class PhaseSets {
     return true;
   }
 
-  /// What comes of how far the curve is from a steady state: rounding, and remainders over cells of phases.
+  /// The effect of the curve's distance from a steady state: rounding, and remainders over cells of phases.
   /// The bounds of two programs may differ by as much.
   [[nodiscard]] double of_rounding() const { return std::max(0.0, still_->for_ever - still_->bias); }
   [[nodiscard]] double claimed(double bound) const { return rigor::add_up(with_room(bound), of_rounding()); }

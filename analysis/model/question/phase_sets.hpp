@@ -9,7 +9,7 @@
 
 namespace veritrack::model {
 
-/// What other proofs have.
+/// The limits that other proofs have.
 struct KnownLimits {
   double noise = 0.0;  ///< that is tolerated, signal units
   double reach = 0.0;  ///< the largest frequency error at the start, rad/sample

@@ -167,7 +167,7 @@ template <int K>
 [[nodiscard]] Jet<K> stays_within(const Jet<K>& x, const Jet<K>& /*low*/, const Jet<K>& /*high*/) {
   return x;
 }
-// Of functions with kinks, the branch that is taken.
+// Functions with kinks: the branch that is taken.
 template <int K>
 [[nodiscard]] Jet<K> chosen(const Jet<K>& positive, const Jet<K>& a, const Jet<K>& b) {
   return positive.at(0) > 0.0 ? a : b;

@@ -19,7 +19,7 @@ struct NeutralTurn {
 
 /// Whether such a turn before the step is the same turn after it, at every state that is tried near this one,
 /// and leaves the frequency as it is. Errors of this kind never decay. `near`, `size`: a state, and sizes of
-/// its entries, by which it is told how far to try. A guess, from four states.
+/// its entries, which say how far to try. A guess, from four states.
 [[nodiscard]] std::optional<NeutralTurn> find_neutral_turn(const StepMap& step, const Eigen::VectorXd& near,
                                                            const Eigen::VectorXd& size);
 

@@ -82,7 +82,7 @@ std::string lock_of(const SteadyState& steady) {
                                          : "it has locked to something else";
 }
 
-/// What to write in place of states that turn together without any effect.
+/// The states to write in place of those that turn together without any effect.
 std::string without_turn(const SteadyState& steady) {
   const auto name = [&](std::size_t state) { return name_of(steady, static_cast<Eigen::Index>(state)); };
   const std::string angle = name(steady.neutral->angle);

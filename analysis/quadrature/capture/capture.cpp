@@ -24,7 +24,7 @@ constexpr int kDegrees[] = {0, 7, 7, 5};
 constexpr int kSlopeDegrees[] = {0, 3, 3, 2};
 /// Deviations this large (relative amplitude, rad/sample) are beyond all hope.
 constexpr double kLargestDeviation = 0.5;
-/// What is found on the way is reported a little larger: a checker that encloses the same states by other
+/// Values found on the way are reported a little larger: a checker that encloses the same states by other
 /// means may find them larger by as much.
 constexpr double kRoom = 1.0 + 1e-6;
 
@@ -162,7 +162,7 @@ class FollowedStarts {
   }
 
  private:
-  /// What the Taylor models do not know goes into the zonotope, where it is followed linearly.
+  /// The remainders of the Taylor models go into the zonotope, where they are followed linearly.
   void move_remainders() {
     StateVector remainders;
     for (int i = 0; i < kStateSize; ++i) {

@@ -170,7 +170,7 @@ Region prove_region(const CaptureProblem& problem, const CaptureTarget& target, 
       if (done[i].verdict == Verdict::proved) {
         add_frequency_errors(region.frequency_errors, done[i].result.frequency_errors);
       }
-      // Of many thousand cells these would be more than the memory wants to hold.
+      // For many thousand cells these would take too much memory.
       done[i].result.frequency_errors.clear();
       done[i].result.frequency_errors.shrink_to_fit();
       region.cells.push_back(done[i]);

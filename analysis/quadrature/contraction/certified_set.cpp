@@ -41,7 +41,7 @@ IntervalVector<3> error_bounds(const CertifiedSet& set, const Interval& level) {
 
 namespace {
 
-/// What noise and slew add to |T e|^2.
+/// The amount that noise and slew add to |T e|^2.
 Interval pushed(const CertifiedSet& set, const Interval& noise, const Interval& slew) {
   return rigor::square(Interval(set.noise_gain) * noise) + rigor::square(Interval(set.slew_gain) * slew);
 }

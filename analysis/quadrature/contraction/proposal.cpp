@@ -175,7 +175,7 @@ std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Sh
       sample_set({request.design, t, set.radius, set.noise, constants, covariance_margin(objective),
                   is_about_a_start(objective) ? request.start_covariance : std::nullopt},
                  *steady);
-  // What noise and slew leave for the contraction, with room for rounding.
+  // The share that noise and slew leave for the contraction, with room for rounding.
   constexpr double kRoom = 1.0 + 1e-7;
   const double noise = set.noise_gain * set.noise / set.radius;
   const double slew = set.slew_gain * set.slew / set.radius;

@@ -248,7 +248,7 @@ void find_all_sets(const sets::ContractionQuestion& question, ContractionCertifi
   share_sets(question, certificate);
 }
 
-/// As far as the question wants. What a quick search proves, one for everything proves, too.
+/// As far as the question wants. A search for everything proves what a quick one proves, too.
 void find_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
   if (question.effort != sets::SearchEffort::everything) {
     certificate.set = find_sufficient_set(question);

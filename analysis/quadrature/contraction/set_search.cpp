@@ -71,7 +71,7 @@ std::optional<Verification> first_that_verifies(const sets::ContractionQuestion&
   return std::nullopt;
 }
 
-/// Of the shapes that are proposed the first that verifies, or, where its size is the objective, the largest.
+/// The first of the proposed shapes that verifies, or, where its size is the objective, the largest.
 std::optional<Verification> best_that_verifies(const sets::ContractionQuestion& question,
                                                const ProposalRequest& request) {
   const rigor::NearestRounding nearest;

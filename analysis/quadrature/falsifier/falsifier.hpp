@@ -26,7 +26,7 @@ struct Attack {
   std::string structure;  ///< constant, alternating, resonant, turning, greedy, gradient; + search
   Eigen::Vector3d start_error = Eigen::Vector3d::Zero();       ///< amplitude, phase, frequency
   Eigen::Matrix3d start_covariance = Eigen::Matrix3d::Zero();  ///< in the frame of the estimated phase
-  /// Of step k to k+1: noise along and across the predicted phase (relative to the amplitude), slew
+  /// From step k to k+1: noise along and across the predicted phase (relative to the amplitude), slew
   /// (rad/sample per sample).
   std::vector<Eigen::Vector3d> inputs;
 };

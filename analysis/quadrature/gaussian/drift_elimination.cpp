@@ -13,9 +13,9 @@ namespace {
 
 using rigor::Interval;
 
-/// What is left of l by elimination with the determinant of the other rows as that of the noise; and what the
-/// choice of a multiplier is to make large. Where a pivot is too small, less and less, so that a search finds
-/// its way out.
+/// The rest of l after elimination with the determinant of the other rows as that of the noise; and the
+/// quality that the choice of a multiplier is to make large. Where a pivot is too small, less and less, so
+/// that a search finds its way out.
 struct Elimination {
   double rest, quality;
 };

@@ -12,7 +12,7 @@ namespace {
 
 using rigor::Interval;
 
-/// Of the level of an image above its tangent: more is of no use in any cell.
+/// The most by which the level of an image is raised above its tangent: more is of no use in any cell.
 constexpr double kMostRaise = 1.0;
 
 template <typename Scalar, typename Part>

@@ -17,7 +17,7 @@ using rigor::Interval;
 constexpr std::array<double, 5> kStartLevels{kUsualStartLevel, 9.5, 11.0, 12.5, 14.0};
 /// Ratios in a row without a set before the search ends.
 constexpr int kMostWithout = 3;
-/// What a proof may cost: less is left of the inequality than in a set for the assumed noise.
+/// The cost that a proof may have: less is left of the inequality than in a set for the assumed noise.
 constexpr std::int64_t kAffordableLouder = 700'000;
 constexpr std::size_t kEveryPart = 13;
 

@@ -10,7 +10,7 @@ using rigor::Interval;
 using rigor::Verdict;
 
 constexpr int kMostHalvings = 5;
-/// Of the margin of the middle alone: more pieces cost time, and a smaller margin costs cells.
+/// A share of the margin of the middle alone: more pieces cost time, and a smaller margin costs cells.
 constexpr double kWorthwhile = 0.6;
 /// With a leak nothing is a mirror image, and the search knows less of what good sets are like.
 constexpr std::int64_t kMostCells = 100'000;

@@ -25,7 +25,7 @@ constexpr const char* kDriftInequality = "E[W(k+1) \\mid k] \\le \\kappa W(k) + 
 constexpr const char* kIllPosed =
     "there is no steady state to search about: the statement needs q1, q2, r and the noise to be "
     "certainly positive.";
-/// What is added to the level of the starts.
+/// The room that is added to the level of the starts.
 constexpr double kLevelFactor = 1.01;
 constexpr double kLevelRoom = 0.01;
 /// c_0: more lets the inequality hold near the middle of the set, and costs its logarithm in L.
@@ -165,7 +165,7 @@ bool cover(const std::vector<LockSet>& sets, const Interval& frequencies) {
   return frequencies.upper() <= covered;
 }
 
-/// What the error and the sets are.
+/// The definitions of the error and the sets.
 std::string note_on(const std::vector<LockSet>& sets, bool leaks) {
   const LockSet& set = sets.front();
   return "e is the error in the frame of the true phase: real and imaginary part of the estimate relative "
@@ -181,7 +181,7 @@ std::string note_on(const std::vector<LockSet>& sets, bool leaks) {
                 : "");
 }
 
-/// What the sets come to.
+/// The numbers that the sets come to.
 struct LockNumbers {
   Interval probability, reach, level;
 };
@@ -249,7 +249,7 @@ LockCertificate certify(const LockQuestion& question, const LockRequest& request
     bool tolerates = !leaks || cover(sets, question.frequencies);
     for (const LockSet& set : sets) {
       has_room = has_room && lock_rounding(question.design, question.signal, set, question.samples).has_room;
-      // What the set says it tolerates is at least what is assumed.
+      // The set says that it tolerates at least what is assumed.
       tolerates = tolerates &&
                   certainly_less_equal(question.noise_deviation, Interval(set.noise_deviation)) &&
                   certainly_less_equal(question.frequency_walk, Interval(set.frequency_walk));
@@ -273,7 +273,7 @@ LockCertificate certify(const LockQuestion& question, const LockRequest& request
   return result;
 }
 
-/// What is asked of a proposal; of none where the question has no answer.
+/// The request for a proposal; an empty one where the question has no answer.
 LockRequest usual_request(const LockQuestion& question) {
   return is_well_posed(question) ? proposal_request(question) : LockRequest{};
 }

@@ -19,7 +19,7 @@ struct LockQuestion {
   rigor::Interval noise_deviation;  ///< sigma of each channel, relative to the amplitude
   rigor::Interval frequency_walk;   ///< deviation of the frequency's step, rad/sample
   rigor::Interval samples;          ///< N
-  /// Of the signal, rad/sample; a leak needs them.
+  /// The signal's frequencies, rad/sample; a leak needs them.
   rigor::Interval frequencies = rigor::Interval(0.0);
   LockStarts starts;
   TrackedSignal signal;       ///< for what rounding depends on

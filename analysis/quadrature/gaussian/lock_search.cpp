@@ -67,7 +67,7 @@ class Shapes {
         root_(factor_of(centre.covariance)),
         whole_root_(whole(centre.covariance).llt().matrixL()) {}
 
-  /// What good sets of the designs of La Scala's Table 3.2 have in common.
+  /// The common values of good sets of the designs of La Scala's Table 3.2.
   [[nodiscard]] static search::SearchSpace space(int evaluations) {
     search::SearchSpace space{Eigen::VectorXd(kParameters), Eigen::VectorXd::Constant(kParameters, 0.1),
                               Eigen::VectorXd::Constant(kParameters, -6.0),
@@ -117,7 +117,7 @@ class Shapes {
   Eigen::Matrix3d whole_root_;  ///< with the entries 12 and 13
 };
 
-/// Of the level.
+/// Shares of the level.
 constexpr std::array<double, 7> kShares{1.0, 0.8, 0.5, 0.25, 0.1, 0.03, 0.003};
 
 /// The margins of a set at these samples, in parallel.

@@ -14,7 +14,7 @@ namespace {
 using rigor::Interval;
 using rigor::IntervalMatrix;
 
-/// Of the phase error: enough that the covariance hardly turns within one.
+/// Cells of the phase error: enough that the covariance hardly turns within one.
 constexpr int kCells = 64;
 
 IntervalMatrix<3> turn(const Interval& angle) {

@@ -117,7 +117,7 @@ class SnrSearch {
   std::optional<LockShape> shape_;
 };
 
-/// Of a LockCertificate, what is said at the lowest ratio.
+/// The items of a LockCertificate that are reported at the lowest ratio.
 template <typename Item, typename Name>
 std::vector<Item> kept(const std::vector<Item>& items, Name name,
                        std::initializer_list<std::string_view> names) {

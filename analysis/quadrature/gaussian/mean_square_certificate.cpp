@@ -17,7 +17,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-/// Of the mean square that sampled points need: the less is added, the smaller cells have to be.
+/// Factors of the mean square that sampled points need: the less is added, the smaller cells have to be.
 constexpr std::array<double, 5> kFactors{1.08, 1.16, 1.3, 1.5, 2.0};
 constexpr std::int64_t kAffordableCells = 700'000;
 

@@ -121,7 +121,7 @@ constexpr std::array<double, 17> kLevels{0.003, 0.03, 0.1, 0.3, 0.6, 1.0, 1.5, 2
 /// Besides what the point needs: far out there is room, so that cells there need not be small.
 constexpr double kRoomPerLevel = 0.15;
 constexpr double kMostLevelWithRoom = 8.0;
-/// What the points need, in units of the linear mean square.
+/// The mean squares that the points need, in units of the linear mean square.
 Eigen::VectorXd needs(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
                       const LockMeanSquare& form, double linear, const std::vector<LockSample>& samples) {
   const MeanSquareInequality inequality(design, set, form);

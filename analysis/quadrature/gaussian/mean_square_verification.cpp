@@ -23,7 +23,7 @@ bool is_in_range(const LockMeanSquare& form) {
          std::all_of(form.offset.begin(), form.offset.end(), [](double x) { return std::isfinite(x); }) &&
          certainly_not_negative(Interval(form.share)) && certainly_positive(Interval(form.rate)) &&
          certainly_positive(Interval(form.bound)) &&
-         // What is left of the errors is convex.
+         // The remainder of the errors is convex.
          certainly_less_equal(Interval(form.rate), rigor::square(frequency));
 }
 

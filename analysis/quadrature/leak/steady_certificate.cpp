@@ -62,7 +62,7 @@ std::vector<theorems::Evidence> evidence_of(const SteadySearch& search) {
   return evidence;
 }
 
-/// What was looked for, and how far it came.
+/// The object of the search, and how far it came.
 struct Search {
   sets::LockBranch branch;
   double largest_noise = 0.0;  ///< zero when none was certified
@@ -190,7 +190,7 @@ std::optional<Interval> above_zero(double limit) {
   return limit > 0.0 ? std::optional(Interval(limit)) : std::nullopt;
 }
 
-/// What every one of the sets holds of an error.
+/// The size of an error that every one of the sets contains.
 Interval least_radius(const std::vector<SteadyPiece>& pieces, Eigen::Index i) {
   Interval least(std::numeric_limits<double>::max());
   for (const SteadyPiece& piece : pieces) {

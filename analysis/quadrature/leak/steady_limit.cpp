@@ -38,7 +38,7 @@ Matrix<3> metric_of(const SteadySamples& samples, const Shape& shape, double rad
   return metric / (radius > 0.0 ? radius / metric.inverse().row(2).norm() : shape.scale);
 }
 
-/// Of shapes for some steady states.
+/// A search for shapes for some steady states.
 class LimitSearch {
  public:
   LimitSearch(const SteadyRequest& request, double SteadyRequest::*which, double target)

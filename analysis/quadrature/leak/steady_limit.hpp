@@ -14,8 +14,7 @@ namespace veritrack::quadrature {
 struct SteadyLimit {
   rigor::Matrix<3> metric;  ///< of level 1
   double goal;              ///< the share of the covariance bounds that a step may fill
-  /// Of the noise, relative to the amplitude, of the slew, rad/sample per sample, or of the radius,
-  /// rad/sample.
+  /// The noise, relative to the amplitude, the slew, rad/sample per sample, or the radius, rad/sample.
   double size;
   Eigen::VectorXd point;  ///< where the search for a neighbouring band may begin
 };

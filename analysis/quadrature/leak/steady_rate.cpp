@@ -79,7 +79,7 @@ bool certainly_contracts(const SteadyStep<SteadySecant>& step, const SteadyBound
   }
   const std::array<Interval, 2> middle{Interval(cell.middle(kX)), Interval(cell.middle(kY))};
   const Interval size = square(cell.side(kX) - middle[kX]) + square(cell.side(kY) - middle[kY]);
-  // Of 1 - x^2 - y^2 the value in the middle stays here; what is linear and quadratic has its own rows.
+  // The value of 1 - x^2 - y^2 in the middle stays here; the linear and quadratic parts have their own rows.
   const SteadySecant head =
       SteadySecant(rate_squared - lambda * bounds.eta_rest - sigma * noise_squared -
                    mu * (one - square(middle[kX]) - square(middle[kY])) - tau * Interval(size.upper())) -

@@ -31,7 +31,7 @@ struct SteadyReach {
   double hidden_squared, eta_squared, noise_squared;
 };
 
-/// Of a step in double; `noise` is relative to the amplitude.
+/// The reach of a step in double; `noise` is relative to the amplitude.
 [[nodiscard]] SteadyReach reach_of(const SteadyStep<double>& step, const SteadyBounds<double>& bounds,
                                    const SteadySetting<double>& setting, double level, double noise);
 

@@ -63,8 +63,7 @@ std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& q
 }
 
 /// A set that tolerates more noise, or more slew, without the other, than is `known` to be certified: the
-/// most that a search finds, with more left for the proof until it is proved. What is proved for it is proved
-/// for less.
+/// most that a search finds, with more left for the proof until it is proved. A proof for it is one for less.
 std::optional<SteadySet> toughest_set(const sets::ContractionQuestion& question,
                                       const sets::LockBranch& branch, SteadyRequest request,
                                       double SteadyRequest::*size, double known) {

@@ -24,7 +24,7 @@ struct SteadyDirections {
   Scalar a11, a21, a22, m1, m2, m3;
 };
 
-/// Of a metric: Gram and Schmidt on the rows of T^-1 that belong to alpha and to c.
+/// The directions of a metric: Gram and Schmidt on the rows of T^-1 that belong to alpha and to c.
 template <typename Scalar>
 [[nodiscard]] SteadyDirections<Scalar> directions_of(const TriangularMetric<Scalar>& t) {
   using std::sqrt;

@@ -78,7 +78,7 @@ SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::Q
   return result;
 }
 
-/// What holds for both.
+/// The start that covers both.
 SteadyStart both(const SteadyStart& a, const SteadyStart& b) {
   SteadyStart result;
   if (a.level && b.level) {

@@ -52,8 +52,8 @@ struct InnovationForm {
   Scalar value1, value2;
 };
 
-/// Of e^{-i (psi* + s c)} - rho e^{i nu*}: the divided difference of the signal is -i c e^{-i (psi* + s c /
-/// 2)} ratio.
+/// The form of e^{-i (psi* + s c)} - rho e^{i nu*}: the divided difference of the signal is -i c e^{-i (psi*
+/// + s c / 2)} ratio.
 template <typename Scalar>
 [[nodiscard]] InnovationForm<Scalar> innovation_of(const SteadySetting<Scalar>& setting,
                                                    const Swing<Scalar>& swing, const Scalar& level,
@@ -112,8 +112,8 @@ struct LeftForm {
   Scalar left1, left2;  ///< of the innovation
 };
 
-/// Of the corrected estimate times e^{i s c}, which is in the frame of the true phase: -e^{i s c} rest' - i c
-/// e^{i s c / 2} ratio rest*, rest* = e^{-i psi*} - rho*.
+/// The form of the corrected estimate times e^{i s c}, which is in the frame of the true phase: -e^{i s c}
+/// rest' - i c e^{i s c / 2} ratio rest*, rest* = e^{-i psi*} - rho*.
 template <typename Scalar>
 [[nodiscard]] LeftForm<Scalar> left_by(const MeanGain<Scalar>& gain, const SteadySetting<Scalar>& setting,
                                        const Swing<Scalar>& swing, const InnovationForm<Scalar>& innovation,

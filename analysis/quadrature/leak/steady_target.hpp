@@ -7,8 +7,8 @@
 
 namespace veritrack::quadrature {
 
-/// Omega_s, s the level, at the frequencies whose steady states (polar frame) lie in a box. What it gives as
-/// the level of states is an upper bound on the least s such that Omega_s holds them.
+/// Omega_s, s the level, at the frequencies whose steady states (polar frame) lie in a box. The level that it
+/// gives for states is an upper bound on the least s such that Omega_s holds them.
 class SteadySetTarget final : public CaptureTarget {
  public:
   SteadySetTarget(const SteadySet& set,

@@ -120,7 +120,7 @@ void verify_cell(const Design& design, const sets::QuadratureTube& tube, const S
   settings.secants.steady = steady_secants(tube);
   fill_turns(settings.secants);
   const SteadyDisturbance disturbance{Interval(set.noise), motion.errors, motion.covariance};
-  // What needs more is not proposed well: a set that is a little smaller is proved in much less time.
+  // A set that needs more is not proposed well: one that is a little smaller is proved in much less time.
   constexpr std::int64_t kMostCells = 120;
   constexpr std::int64_t kMostCellsOfOne = 1200;
   const std::int64_t most_cells = set.levels.size() == 1 ? kMostCellsOfOne : kMostCells;

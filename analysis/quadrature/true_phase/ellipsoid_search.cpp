@@ -46,7 +46,7 @@ Matrix3d accumulated(const Matrix3d& a, const Matrix3d& z, double factor) {
   return sum;
 }
 
-/// What the search varies.
+/// The parameters of the search.
 struct Shape {
   double decay = 0.5;                                  ///< where kappa2 is between its least value and 1
   std::array<double, 3> spread_of_start{1, 1, 1};      ///< how much of the start's size is added at each step

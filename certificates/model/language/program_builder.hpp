@@ -65,7 +65,7 @@ class ProgramBuilder {
   };
   [[nodiscard]] Term derivative_of(const trackers::Instruction& instruction, Term value, const Slope& first,
                                    const Slope& second);
-  /// Of functions with kinks.
+  /// The derivatives of functions with kinks.
   [[nodiscard]] Differentiated derivatives_by_branch(const trackers::Instruction& instruction, Term value,
                                                      const std::vector<const Differentiated*>& operands);
   /// `a` where `positive` is above 0, else `b`.

@@ -30,7 +30,7 @@ struct ValuesInDisc {
   ComplexBall centre;
   Ball spread;
 };
-/// By the Taylor expansion about the centre. Of every polynomial in the balls.
+/// By the Taylor expansion about the centre. For every polynomial in the balls.
 ValuesInDisc values_in_disc(const std::vector<Ball>& polynomial, const ComplexBall& centre,
                             const Ball& radius);
 

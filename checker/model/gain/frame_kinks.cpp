@@ -9,7 +9,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// What a deviation of at most `bound` reaches beyond `distance`.
+/// The excess of a deviation of at most `bound` over `distance`.
 Ball beyond(const Ball& bound, const Ball& distance) {
   return max(zero, bound - distance);
 }

@@ -58,7 +58,7 @@ class GainBounds {
                                                  const std::vector<Ball>& start) const;
 
  private:
-  /// What does not change from round to round.
+  /// The data that do not change from round to round.
   struct Given {
     Table start;                  ///< T, by form and block
     std::vector<double> outside;  ///< by form: of the inputs that are no remainders, and ripples
@@ -71,7 +71,7 @@ class GainBounds {
   [[nodiscard]] Table next(const Table& bounds, const Given& given) const;
   /// By form.
   [[nodiscard]] std::vector<double> in_long_run(std::vector<double> bounds, const Given& given) const;
-  /// Of the form of the error, where these are the bounds of the long run.
+  /// The mean of the form of the error, where these are the bounds of the long run.
   [[nodiscard]] Ball mean(const std::vector<double>& bounds) const;
   [[nodiscard]] bool keeps_limits(const std::vector<double>& bounds) const;
 

@@ -41,7 +41,7 @@ class GainClaims {
   /// They stay at or below this, which is nearer to the true lock than to any other that the formulas show
   /// (false_lock.hpp).
   [[nodiscard]] bool is_lock(const Errors& errors, const Ball& error) const;
-  /// Of the frequency error in the long run, without noise, from the steady state.
+  /// The frequency error in the long run, without noise, from the steady state.
   [[nodiscard]] bool mean_is_between(const Ball& low, const Ball& high) const;
   [[nodiscard]] bool varies_by_at_most(const Ball& most) const;
   /// To first order the linear recursion is the same at every sample, about a steady state of the true

@@ -11,7 +11,7 @@
 
 namespace veritrack::checker {
 
-/// What a certificate by gains with one point as steady state establishes.
+/// The result of a certificate by gains with one point as steady state.
 struct Gains : LoopBounds {
   GainNetwork network;
   std::optional<GainBounds> bounds;  ///< none where the certificate names no horizon

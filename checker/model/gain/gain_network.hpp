@@ -14,9 +14,9 @@
 
 namespace veritrack::checker {
 
-/// Of a state: turns phi + constant + per_frequency omega. With `imaginary` the state is the real part of a
-/// vector of any length with this angle, and the state of that number, which has zeros here, its imaginary
-/// part.
+/// The steady value of a state: turns phi + constant + per_frequency omega. With `imaginary` the state is the
+/// real part of a vector of any length with this angle, and the state of that number, which has zeros here,
+/// its imaginary part.
 struct SteadyState {
   long turns = 0;
   Ball constant, per_frequency;
@@ -26,9 +26,9 @@ struct SteadyState {
 /// An input with its column B.
 struct GainInput {
   std::vector<InputFactor> column;  ///< by state
-  /// Of noise, the slew and residuals: the size.
+  /// The size of noise, of the slew and of residuals.
   std::function<Ball(const Ball& noise, const Ball& slew)> size;
-  /// Of a remainder: the forms that it is about, and the size at their bounds.
+  /// The forms that a remainder is about, and its size at their bounds.
   std::vector<std::size_t> about;
   std::function<Ball(const std::vector<Ball>& bounds)> at_bounds;
   bool is_residual = false;  ///< of the steady state
@@ -72,7 +72,7 @@ struct GainNetwork {
   std::vector<GainRipple> ripples;       ///< at a constant frequency only
   std::size_t error_form = 0;            ///< h(X_k) - omega_k, less the bias
   Ball bias;                             ///< over the band
-  /// What is listed is a steady state up to rounding, and no limit is crossed there.
+  /// The listed state is steady up to rounding, and crosses no limit.
   bool is_at_rest = true;
   bool has_vector = false;      ///< two states are one angle: samples that are kept
   std::vector<long> turns;      ///< of the states in the steady state, of the phase

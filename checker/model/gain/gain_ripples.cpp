@@ -138,7 +138,7 @@ GainForm change_of(const GainNetwork& network, const std::vector<Ball>& angle) {
   return form;
 }
 
-/// What changes of its angle do in the direction of a ripple.
+/// The effect of changes of its angle in the direction of a ripple.
 GainInput direct_drift_of(const GainNetwork& network, const GainRipple& ripple) {
   GainInput drift;
   drift.column = network.inputs[ripple.input].column;
@@ -149,7 +149,7 @@ GainInput direct_drift_of(const GainNetwork& network, const GainRipple& ripple) 
   return drift;
 }
 
-/// What else changes of the angles of ripples do to this state.
+/// The other effects of changes of the angles of ripples on this state.
 GainInput drift_of(const GainNetwork& network, std::size_t state) {
   GainInput drift;
   drift.column.assign(network.states(), {zero, zero});

@@ -43,15 +43,15 @@ struct FrameRipple {
   Ball size;
 };
 
-/// What comes from outside of the linear recursion, one for each sample: noise, or a remainder.
+/// An input from outside of the linear recursion, one for each sample: noise, or a remainder.
 struct FrameInput {
-  /// Of noise: the size for this bound on the noise.
+  /// The size of noise for this bound on the noise.
   std::function<Ball(const Ball& noise)> at_noise;
-  /// Of a remainder: the values whose deviations it is about, and the size where these are at most as large.
+  /// The values whose deviations a remainder is about, and its size where these are at most as large.
   std::vector<int> about;
   std::function<Ball(const std::vector<Ball>& bounds)> at_bounds;
 
-  /// Of a ripple; its size is at_noise, too.
+  /// The ripple, where the input is one; its size is at_noise, too.
   std::optional<FrameRipple> ripple = std::nullopt;
 
   [[nodiscard]] bool is_remainder() const { return !about.empty(); }

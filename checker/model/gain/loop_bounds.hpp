@@ -1,4 +1,4 @@
-// What claims by gains are decided from: bounds of the frequency error.
+// Bounds of the frequency error, from which claims by gains are decided.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What [require] asks of a linear loop, decided (docs/gain-proof.md, section 7).
+// The requirements of [require] on a linear loop, decided (docs/gain-proof.md, section 7).
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace veritrack::checker {
 /// Whether the claim of this id is about the linear loop alone.
 bool is_about_linear_loop(const std::string& id);
 
-/// Of such a claim that the design asks for. `network`: of a loop at rest, with one matrix.
+/// The verdict on such a claim that the design asks for. `network`: of a loop at rest, with one matrix.
 Verdict linear_loop_verdict(const std::string& id, const GainNetwork& network, const ModelDesign& design);
 
 }  // namespace veritrack::checker

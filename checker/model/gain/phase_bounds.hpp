@@ -10,7 +10,7 @@
 
 namespace veritrack::checker {
 
-/// What is verified of the evidence, but for the sums over the lags, which depend on the slew.
+/// The verified evidence, but for the sums over the lags, which depend on the slew.
 struct PhaseLoopEvidence {
   PhaseStructure structure;
   std::vector<std::vector<PhasePart>> cells;  ///< by cell: its parts, from low frequencies to high ones

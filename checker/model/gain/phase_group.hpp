@@ -34,11 +34,11 @@ class PhaseGroup {
   [[nodiscard]] std::size_t phases() const { return phases_; }
   [[nodiscard]] double slew() const { return slew_; }
 
-  /// What goes with the largest size of an input.
+  /// The factor of the largest size of an input.
   [[nodiscard]] double rest(std::size_t part, std::size_t form, std::size_t input) const {
     return rests_[part][form][input];
   }
-  /// What the residual of the curve adds to a form.
+  /// The amount that the residual of the curve adds to a form.
   [[nodiscard]] double of_residual(std::size_t part, std::size_t form) const {
     return residuals_[part][form];
   }

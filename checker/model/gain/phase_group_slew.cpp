@@ -1,4 +1,4 @@
-// What earlier samples differ by whose frequencies are others.
+// Differences to earlier samples at other frequencies.
 #include "checker/model/gain/phase_group.hpp"
 
 #include <algorithm>

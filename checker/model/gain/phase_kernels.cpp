@@ -37,7 +37,7 @@ bool is_stage(const PhaseStage& stage, const PhaseLoop& loop, std::size_t n) {
   return is_one;
 }
 
-/// Of a block.
+/// The lags of a block.
 std::size_t late_lags_of(const PhaseLoop& loop) {
   return static_cast<std::size_t>(
       std::ceil(static_cast<double>(loop.horizon.late_turns * loop.phases) / loop.low));

@@ -16,10 +16,10 @@ struct PhaseInput {
   GridFunction second;
 };
 
-/// What earlier samples, whose frequencies may be in other parts, may differ by, from a lag on.
+/// Differences to earlier samples, whose frequencies may be in other parts, from a lag on.
 struct PhaseStage {
   std::size_t first_lag = 0;
-  /// Of A^(k), from the line between the matrices of the loop.
+  /// The error of A^(k), from the line between the matrices of the loop.
   Table matrix_error;
   std::vector<std::array<std::vector<double>, 2>> column_errors;  ///< by input and its component
 };
@@ -78,7 +78,7 @@ class PhaseKernels {
 
   /// Adds what this input contributes to a form, but for the rest; sizes of as many phases as the loop has.
   void add(std::size_t form, std::size_t input, const PhaseSizes& sizes, EndSums& sums) const;
-  /// What goes with the largest of its sizes, where all sums of the input are at most `bound`.
+  /// The factor of the largest of its sizes, where all sums of the input are at most `bound`.
   [[nodiscard]] double rest(std::size_t form, std::size_t input, const std::vector<double>& bound) const;
   /// (|c| + error) bound.
   [[nodiscard]] double of_form(std::size_t form, const std::vector<double>& bound) const;

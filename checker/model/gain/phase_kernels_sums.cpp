@@ -8,7 +8,7 @@
 
 namespace veritrack::checker {
 
-/// What does not change from lag to lag, and room for what does.
+/// The data that do not change from lag to lag, and room for those that do.
 class PhaseKernels::Lags {
  public:
   Lags(PhaseKernels& kernels, const PhaseLoop& loop)
@@ -57,7 +57,7 @@ class PhaseKernels::Lags {
         size_of(rows_[form][1], ends_[input][1], most_);
         double* const sum = sums_[kernels_->place_of(form, input)].data() + at;
         for (std::size_t g = 0; g < z_.size(); ++g) {
-          // What is infinite or no number at either end stays so.
+          // A size that is infinite or no number at either end stays so.
           sum[g] += (z_[g] > most_[g] ? z_[g] : most_[g]) + 0.0 * (z_[g] + most_[g]);
         }
       }
@@ -79,7 +79,7 @@ class PhaseKernels::Lags {
           const std::vector<double>& column_error = stage.column_errors[input][part];
           double sum = 0.0;
           for (std::size_t i = 0; i < column_error.size(); ++i) {
-            // Of computing the values at the ends, too, and their places.
+            // This includes computing the values at the ends, and their places.
             const double twice = 2.0 * column.value[i];
             const double bend =
                 0.25 * column.second_difference[i] +

@@ -7,7 +7,8 @@
 
 namespace veritrack::checker {
 
-/// Of sums of at most 2^17 numbers that are not negative, one after the other, and of what is added to them.
+/// The rounding of sums of at most 2^17 numbers that are not negative, one after the other, and of what is
+/// added to them.
 constexpr double kManyRoundings = 1.0 + 0x1p-34;
 /// More than all that such sums lose to underflow.
 constexpr double kManyUnderflows = 0x1p-900;

@@ -26,7 +26,7 @@ struct LateBlock {
   Table bend;             ///< how far powers are from the line between those at both ends of the block
 };
 
-/// Of a column of an input, at one end of the frequencies.
+/// A column of an input, at one end of the frequencies.
 class LateColumn {
  public:
   LateColumn(const PhaseInput& input, std::size_t end, std::size_t phases)
@@ -149,7 +149,7 @@ class PhaseKernels::LateLags {
     add_knot(powers_.size(), powers_.lean());
   }
 
-  /// What an input of this kind adds up to over the knots, by cell of phases, for the point g of the grid.
+  /// The sum of an input of this kind over the knots, by cell of phases, for the point g of the grid.
   void add_sums(std::size_t form, std::size_t input, std::vector<double>& single,
                 std::vector<float>& by_cell) const {
     const std::size_t phases = loop_->phases;
@@ -233,8 +233,8 @@ class PhaseKernels::LateLags {
     }
   }
 
-  /// What a product of three functions that are linear in the frequency is beyond its values at both ends,
-  /// and rounding.
+  /// The excess of a product of three functions that are linear in the frequency over its values at both
+  /// ends, and rounding.
   void add_knot(const Table& size, const Table& lean) {
     add_to_rest([&](std::size_t form, std::size_t input, std::size_t part, std::size_t i, std::size_t j) {
       const GridSizes& of_form = form_sizes_[form];
@@ -246,7 +246,7 @@ class PhaseKernels::LateLags {
     });
   }
 
-  /// What powers bend, and errors of columns and forms.
+  /// The bends of powers, and errors of columns and forms.
   void add_errors(const LateBlock& of) {
     const auto& column_errors = loop_->stages.front().column_errors;
     const auto lags = static_cast<double>(lags_);

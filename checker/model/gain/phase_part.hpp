@@ -10,7 +10,7 @@
 
 namespace veritrack::checker {
 
-/// What is known over a cell of phases.
+/// The known values over a cell of phases.
 struct PhaseCellValues {
   std::vector<RuleRange> rules;
   std::vector<std::vector<std::pair<std::size_t, double>>> direct;  ///< as of a run

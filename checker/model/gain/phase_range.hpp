@@ -10,7 +10,7 @@ struct DoubleRange {
   double low = 0.0, high = 0.0;
 };
 
-/// Of a function of the place alone.
+/// The range of a function of the place alone.
 DoubleRange range_over_cell(const BallPolynomial& x);
 /// Not below |x|.
 double largest_in(const DoubleRange& range);

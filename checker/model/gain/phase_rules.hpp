@@ -9,8 +9,8 @@
 
 namespace veritrack::checker {
 
-/// What the remainder of an operation depends on besides the bounds of its operands: ranges of their bases,
-/// outward.
+/// The data that the remainder of an operation depends on besides the bounds of its operands: ranges of their
+/// bases, outward.
 struct RuleRange {
   double low = 0.0, high = 0.0;              ///< of the (first) operand
   double other_low = 0.0, other_high = 0.0;  ///< of the second one

@@ -12,7 +12,7 @@
 
 namespace veritrack::checker {
 
-/// A cell of frequencies as a certificate writes it. Of the tube only the frequencies, the turns and the
+/// A cell of frequencies as a certificate writes it. The tube has only the frequencies, the turns and the
 /// curve, and `shape` has all entries of the basis, row by row.
 struct PhaseCell {
   PhaseTube tube;
@@ -21,7 +21,7 @@ struct PhaseCell {
   std::vector<std::vector<double>> matrix;  ///< coefficients of the powers of z, by entry
 };
 
-/// What the step is over a cell of phases and frequencies: functions of the place in it.
+/// The step over a cell of phases and frequencies: functions of the place in it.
 struct PhaseRun {
   PolynomialMatrix forms;    ///< by form and component of eta
   PolynomialMatrix columns;  ///< by variable of the step (eta, noise, inputs) and component of eta

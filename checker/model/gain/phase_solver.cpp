@@ -51,7 +51,7 @@ bool lower(Table& bounds, const Table& other) {
 
 }  // namespace
 
-/// Of remainders and inputs where forms are at most some bounds.
+/// The sizes of remainders and inputs where forms are at most some bounds.
 struct PhaseSolver::Sizes {
   std::vector<Table> remainders;    ///< by part, rule and cell
   std::vector<Table> inputs;        ///< by part, input and cell
@@ -169,7 +169,7 @@ std::vector<double> PhaseSolver::of_form(const Sizes& sizes, std::size_t part, s
   }
   std::vector<double> result(sums.left.size());
   for (std::size_t g = 0; g < result.size(); ++g) {
-    // Of the ends the larger one; what is no number at one of them stays so.
+    // The larger one of both ends; a value that is no number at one of them stays so.
     const double most = std::max(sums.left[g], sums.right[g]) + 0.0 * (sums.left[g] + sums.right[g]);
     result[g] = up(most * kManyRoundings + up(rest) + direct(sizes, part, form, g) + kManyUnderflows);
   }

@@ -6,9 +6,9 @@ namespace {
 
 enum class Roots { all_inside, one_outside, unknown };
 
-/// Of p(radius z), about the unit circle: step by step to (p_n p(z) - p_0 z^n p(1/z)) / z, which has one root
-/// fewer inside and as many outside, while |p_0| < |p_n|. Where |p_0| > |p_n| the product of the roots is
-/// larger than 1.
+/// The roots of p(radius z), about the unit circle: step by step to (p_n p(z) - p_0 z^n p(1/z)) / z, which
+/// has one root fewer inside and as many outside, while |p_0| < |p_n|. Where |p_0| > |p_n| the product of the
+/// roots is larger than 1.
 Roots roots_about(const BallRows& matrix, const Ball& radius) {
   std::vector<Ball> p = characteristic_polynomial(matrix);
   Ball power = one;

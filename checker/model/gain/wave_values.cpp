@@ -84,7 +84,7 @@ int argument(LinearFrame& frame, const TurnedWave& turned) {
 
 namespace {
 
-/// Of c0 cos(lambda) + c1 sin(lambda) beyond c0 + c1 lambda.
+/// The remainder of c0 cos(lambda) + c1 sin(lambda) beyond c0 + c1 lambda.
 struct WaveRemainder {
   std::string name;
   int angle;

@@ -1,4 +1,4 @@
-// What sums of waves are where they do not depend on the phase of the signal: angles and linear values
+// The values of sums of waves where these do not depend on the phase of the signal: angles and linear values
 // (docs/gain-proof.md, section 2).
 #pragma once
 

@@ -31,8 +31,8 @@ struct Wave {
   auto operator<=>(const Wave&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The sum of Re(conj(gamma) M), with gamma = (real, imaginary) in units of 2^-16, and no zeros. Of a wave
-/// and its conjugate one is there: that whose first number of turns or times is positive.
+/// The sum of Re(conj(gamma) M), with gamma = (real, imaginary) in units of 2^-16, and no zeros. Only one of
+/// a wave and its conjugate is there: that whose first number of turns or times is positive.
 using Waves = std::map<Wave, std::array<std::int64_t, 2>>;
 
 /// The samples: the real and the imaginary part of y.

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kMargin = 1.0 + 0x1p-36;
 constexpr double kUnderflow = 0x1p-1000;
-/// Of a sum of products of any sign, relative to the sum of absolute values: far above 33 roundings.
+/// The error of a sum of products of any sign, relative to the sum of absolute values: far above 33
+/// roundings.
 constexpr double kError = 0x1p-45;
 const double kInfinity = HUGE_VAL;
 

@@ -215,7 +215,7 @@ std::optional<ExaminedBlock> BlockFit::fit(std::span<const ToneStretch> stretche
     if (part.kind == Part::Kind::harmonic) {
       block.harmonics.push_back(fitted);
     } else if (part.kind == Part::Kind::hum) {
-      // Of two channels the larger part counts.
+      // The larger part of two channels counts.
       for (Eigen::Index channel = 0; channel < channels_; ++channel) {
         fitted.size = channel == 0 ? found.segment(i, 2).norm()
                                    : std::max(fitted.size, found.segment(i + 2 * channel, 2).norm());

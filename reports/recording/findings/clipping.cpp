@@ -95,7 +95,7 @@ class ClippingDetector : public Detector {
     }
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
-    // What is flat for most of the time is another waveform: its harmonics are the finding.
+    // A tone that is flat for most of the time has another waveform: its harmonics are the finding.
     constexpr double kSquare = 0.75;
     if (static_cast<double>(places.size()) > kSquare * static_cast<double>(block.samples.size()) &&
         channels_ == 1) {

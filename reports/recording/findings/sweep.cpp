@@ -49,13 +49,13 @@ class SweepDetector : public Detector {
   }
 
  private:
-  /// Of the frequency, in white noise (Cramer and Rao, twice for Hann's window), and of what leaks from other
-  /// lines.
+  /// The deviation of the frequency, in white noise (Cramer and Rao, twice for Hann's window), and from the
+  /// leakage of other lines.
   [[nodiscard]] double deviation_of(const ToneStretch& stretch) const {
     constexpr double kLeak = 0.01;  // bins
     const double length = static_cast<double>(stretch.length);
     const double share = std::clamp(stretch.share, 1e-3, 1.0);
-    // Of the power of noise over that of the tone.
+    // The power of noise over that of the tone.
     const double ratio = (1.0 - share) / share;
     const double white = std::sqrt(2.0 * (channels_ > 1 ? 6.0 : 12.0) * ratio / (length * length * length));
     return std::hypot(white, kLeak * 2.0 * std::numbers::pi / length);

@@ -30,7 +30,7 @@ class CsvRecords {
   /// closed or text behind one, for a record of more than 1 MiB, and what LineSource throws.
   [[nodiscard]] bool next();
 
-  /// Of the record, valid until the next call of next().
+  /// The fields of the record, valid until the next call of next().
   [[nodiscard]] std::span<const CsvField> fields() const { return fields_; }
   [[nodiscard]] const LineSource& lines() const { return lines_; }
 

@@ -21,7 +21,7 @@ class LineSource {
   /// certificates::InputError when reading fails, and for a line longer than kLongestLine bytes.
   [[nodiscard]] std::optional<std::string_view> next();
 
-  /// Of the line that was returned last, from 1; 0 before it.
+  /// The number of the line that was returned last, from 1; 0 before it.
   [[nodiscard]] std::int64_t line() const { return line_; }
   /// The share of the file that has been returned; none when its size is unknown.
   [[nodiscard]] std::optional<double> progress() const;

@@ -18,7 +18,7 @@ void QuadratureSource::refill() {
     } else {
       filter_.clear();
     }
-    // What is known now is the sample that came `delay` ago.
+    // The sample that is known now came `delay` ago.
     if (++pushed_ > delay) {
       ready_.push_back(is_known ? RecordedSample{filter_.in_phase(), filter_.quadrature(), true} : kMissing);
     }

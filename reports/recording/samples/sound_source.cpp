@@ -55,7 +55,7 @@ SoundSource::SoundSource(const std::string& path, const SoundChannels& channels)
   }
   width_ = static_cast<std::size_t>(info.channels);
   sample_rate_ = info.samplerate;
-  // Of a stream, the header says nothing or too much.
+  // The header of a stream says nothing or too much.
   frames_ = path != "-" && info.frames > 0 && info.frames < SF_COUNT_MAX ? info.frames : 0;
   buffer_.resize(kFrames * width_);
 }

@@ -38,7 +38,7 @@ class QuadratureBatch {
                   const std::vector<QuadratureEstimate<double>>& starts);
 
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Of tracker t, filtered.
+  /// The filtered estimate of tracker t.
   [[nodiscard]] QuadratureEstimate<double> filtered(std::size_t t) const;
 
   /// Takes all samples, for the trackers from `first` to before `last`, both multiples of

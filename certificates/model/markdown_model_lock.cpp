@@ -83,7 +83,7 @@ std::string model_lock_section(const Certificate& certificate) {
     }
   }
   if (sets.gaussian->is_proved()) {
-    text += "For the assumed noise, within any so many successive samples, however late:\n\n" +
+    text += "For the assumed noise, within any given number of successive samples, however late:\n\n" +
             over_samples(*sets.gaussian, static_cast<int>(tables.model.samples.size())) + "\n";
   }
   return text;

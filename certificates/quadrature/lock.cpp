@@ -208,8 +208,8 @@ std::string lock_coverage_section() {
          "- Every constant was computed with outward-rounded interval arithmetic from the design values. "
          "UNDECIDED means that nothing could be shown.\n"
          "- The tracker is covered as it runs in double precision: IEEE 754, rounding to nearest, sine and "
-         "cosine of the C library within 1 ulp, without -ffast-math. What rounding adds to a step is "
-         "bounded and is within the room that the inequality leaves (docs/gaussian.md, section 7).\n"
+         "cosine of the C library within 1 ulp, without -ffast-math. The rounding error of a step is bounded "
+         "and is within the room that the inequality leaves (docs/gaussian.md, section 7).\n"
          "- Figures show one simulated run in double precision, which proves nothing.\n"
          "\n";
 }

@@ -149,7 +149,7 @@ def _level_sentence(spec: Spec, rows: Sequence[Row]) -> list[str]:
     words = first.words or name.replace("_", " ")
     return [f"For {sum(met)} designs this is certified to be {'at least' if at_least else 'at most'} "
             f"{spec.report['level']}: {_md(words)}."
-            + (f" Of {open_} more the search stopped early, and a full one may find that as well." if open_ else ""),
+            + (f" The search stopped early for {open_} more, and a full one may find that as well." if open_ else ""),
             ""]
 
 

@@ -112,7 +112,7 @@ def figures_of(spec: Spec, rows: Sequence[Row]) -> list[ReportFigure]:
     if name is not None and plane and rows:
         values = _values(spec, rows, name, plane)
         level = level_of(spec)
-        others = " Of designs that differ along other axes only, the best one is shown." if len(spec.axes) > len(
+        others = " The best of the designs that differ along other axes only is shown." if len(spec.axes) > len(
             plane) else ""
         if len(plane) == 2:
             best = "smallest" if values.is_at_most else "largest"

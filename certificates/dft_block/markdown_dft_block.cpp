@@ -132,7 +132,7 @@ std::string block_coverage(bool is_gaussian) {
          noise + "every start within the assumed errors.\n" +
          (is_gaussian
               ? "- *In lock* is a filter whose errors and covariance have not left the certified set; "
-                "in the root mean square the blocks after that count nothing.\n"
+                "in the root mean square the blocks after that count as 0.\n"
               : "") +
          "- The statements concern the model (4.9), not the samples. The difference between a real tone's "
          "transform and the model (about the amplitude over $`T`$) " +

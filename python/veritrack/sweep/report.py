@@ -108,7 +108,7 @@ def _headline(spec: Spec, rows: Sequence[Row], counts: Mapping[str, int]) -> str
 
 
 def _extent_sentence(spec: Spec, rows: Sequence[Row]) -> str:
-    """What was looked for, and what that says of the bounds."""
+    """The extent of the search, and what that says of the bounds."""
     words = f'Extent "{spec.extent}": {EXTENTS[spec.extent]}.'
     early = sum(stopped_early(spec, row) and bool(row.result.bounds) for row in rows)
     if early:

@@ -1,4 +1,4 @@
-"""What the report of a sweep shows: figures, the bound of the regions, the front."""
+"""The contents of a sweep's report: figures, the bound of the regions, the front."""
 
 from __future__ import annotations
 

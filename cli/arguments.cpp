@@ -104,7 +104,7 @@ void add_certify(CLI::App& app, Arguments& into) {
 
   certify
       ->add_option("--timeout", into.certify.seconds,
-                   "end the search of a design with tracker model after so many seconds, and write what is "
+                   "end the search of a design with tracker model after this many seconds, and write what is "
                    "proved by then; the verification at the end is not counted")
       ->check(is_seconds);
   certify->add_flag(
@@ -132,7 +132,7 @@ void add_check(CLI::App& app, Arguments& into) {
   check
       ->add_option(
           "--timeout", into.check.seconds,
-          "stop each design after so many seconds, its verification included: what is not decided by "
+          "stop each design after this many seconds, its verification included: what is not decided by "
           "then is UNDECIDED")
       ->check(is_seconds);
   check->add_flag("--strict", into.check.strict, "a design that requires nothing is 1, not 0");
@@ -186,7 +186,7 @@ void add_map(CLI::App& app, Arguments& into) {
          "model: the modes of its errors over a parameter, NAME=LOW:HIGH, in place of a map: a root locus")
       ->check(is_free_parameter);
   map->add_option("--timeout", into.map.seconds,
-                  "stop after so many seconds and write what is proved by then; so does Ctrl-C")
+                  "stop after this many seconds and write what is proved by then; so does Ctrl-C")
       ->check(is_seconds);
   map->add_flag("--noise", into.map.request.with_noise,
                 "with the noise of [assume], for quadrature-ekf with its slew, too; otherwise without any");
@@ -229,7 +229,7 @@ void add_tune(CLI::App& app, Arguments& into) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   tune->add_option("--timeout", into.tune.seconds,
-                   "end the search after so many seconds, and certify the best so far; so does Ctrl-C")
+                   "end the search after this many seconds, and certify the best so far; so does Ctrl-C")
       ->check(is_seconds);
   tune->add_flag("--free-leak", into.tune.free_leak,
                  "epsilon, where it is above 0, may change, too, and become 0");

@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import typing
 
-END_OF_ALL_DESIGNS = "(* What stands above is the same for all designs of the kind. *)\n"
+END_OF_ALL_DESIGNS = "(* Everything above is the same for all designs of the kind. *)\n"
 
 
 class Outcome(typing.NamedTuple):

@@ -239,7 +239,7 @@ Derivation derive_lock(const LockQuestion& question) {
       !result.had_rate ? "No set about the exact lock was found in which errors fall."
       : !result.had_room
           ? "The noise or the slew pushes errors out of every set that was found."
-          : "No set that was found holds the assumed starts, or the cells did not suffice to verify it.");
+          : "No set that was found contains the assumed starts, or the cells did not suffice to verify it.");
   add_condition(derivation, "noise", "d \\le (1 - \\kappa) \\rho", is_found,
                 "Noise and slew do not push errors out of the set.", "There is no set.");
   add_condition(derivation, "start", "|e_1| \\le \\rho", is_found && starts,

@@ -100,7 +100,7 @@ void conclude_loss(Derivation& derivation, const LossQuestion& question,
   };
   condition("drift", "E[W_{k+1}] \\le W_k + c", frame.has_value(),
             "Verified over cells of errors, offsets and amplitudes.",
-            "No set was found that holds the assumed starts and in which this could be verified.");
+            "No set was found that contains the assumed starts and in which this could be verified.");
   condition("start", "|e_1| \\le \\rho", starts, "All starts, and the covariance, are in the set.",
             frame ? "The covariance at the start is not certainly between the bounds of the set."
                   : "There is no set.");

@@ -132,14 +132,14 @@ std::string block_coverage(bool is_gaussian) {
          noise + "every start within the assumed errors.\n" +
          (is_gaussian
               ? "- *In lock* is a filter whose errors and covariance have not left the certified set; "
-                "in the root mean square the blocks after that count nothing.\n"
+                "in the root mean square the blocks after that count as 0.\n"
               : "") +
-         "- Of the model (4.9), not of the samples: what a real "
-         "tone's "
-         "transform is beside it (about the amplitude over $`T`$) " +
-         (is_gaussian ? "is not in the noise that is assumed, and neither is"
+         "- The statements concern the model (4.9), not the samples. The difference between a real tone's "
+         "transform and the model (about the amplitude over $`T`$) " +
+         (is_gaussian ? "is not in the assumed noise, and neither is"
                       : "has to be counted as noise, and so has") +
-         " what a frequency that changes within a block adds.\n- Exact lock is a fixed point for every "
+         " the contribution of a frequency that changes within a block.\n- Exact lock is a fixed point for "
+         "every "
          "offset: without "
          "noise and slew, errors of the set fall to zero.\n- Not covered: starts outside. From some of them "
          "the filter "

@@ -13,7 +13,7 @@ namespace coq {
 
 Proofs::Proofs(std::string_view for_all_designs) {
   write(for_all_designs);
-  write("\n(* What stands above is the same for all designs of the kind. *)\n");
+  write("\n(* Everything above is the same for all designs of the kind. *)\n");
 }
 
 void Proofs::prove(const std::string& lemma, const std::string& proposition, const std::string& proof,

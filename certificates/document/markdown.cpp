@@ -207,11 +207,11 @@ std::string to_published_markdown(const Certificate& certificate, const Markdown
 
 std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options) {
   const TrackerKind& kind = kind_of(certificate.design);
-  const std::string stopped = certificate.deadline.has_struck()
-                                  ? "*Stopped by the time limit.* What is proved is proved; what was not "
-                                    "reached in time is UNDECIDED, "
-                                    "and another run may reach more or less.\n\n"
-                                  : "";
+  const std::string stopped =
+      certificate.deadline.has_struck()
+          ? "*Stopped by the time limit.* Proved claims are unaffected; all that was not reached in time is "
+            "UNDECIDED, and another run may reach more or less.\n\n"
+          : "";
   return markdown::plain("# " + headline(certificate, options.verification) + "\n\n" + stopped +
                          first_page(kind.answers(certificate)) +
                          (kind.remarks == nullptr ? "" : kind.remarks(certificate)) +

@@ -96,8 +96,8 @@ std::string coverage_section(const KklObserverTables& tables) {
             "is assumed, that is covered, too.";
   return fmt::format(
       "## What this certificate covers, and what it does not\n\n{} Every signal of constant amplitude and "
-      "frequency within the assumed range, with any disturbance that satisfies the assumption. What is "
-      "assumed of the compiler is in `docs/rounding.md`.\n- Not covered: the estimated phase.\n- The "
+      "frequency within the assumed range, with any disturbance that satisfies the assumption. The "
+      "assumptions on the compiler are in `docs/rounding.md`.\n- Not covered: the estimated phase.\n- The "
       "constant of (10) and the paper's claims are about exact arithmetic.\n- Every enclosure was computed "
       "with outward-rounded interval arithmetic. Results of solvers and simulations are marked as not "
       "proved, and no verdict depends on them.\n\n",

@@ -138,7 +138,8 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
 }
 
 std::string recursion_section(const Model& model) {
-  return "## The recursion\n\nWhat is certified is this recursion. `veritrack show` prints it as C, Python "
+  return "## The recursion\n\nThe certificate concerns this recursion. `veritrack show` prints it as C, "
+         "Python "
          "or "
          "Octave, too, for comparison with the program that you run.\n\n" +
          markdown::fenced(recursion_text(model, "the recursion", CodeLanguage::formulas), "") + "\n";
@@ -154,7 +155,7 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
       "not say, such as resets, lock detectors and limits that act.\n"
       "- The amplitude {}, and the signal has no other components than those of the "
-      "signal formula. What else is in the samples must {}.\n"
+      "signal formula. Everything else in the samples must {}.\n"
       "- The frequency {}. A mean is the mean over the phase of the signal.\n"
       "- The certified sets are the tubes in `certificate.json`. \"Started in the set\" refers to them by "
       "name: `starts`, for large starts without noise, or `assumed`, for the assumed noise and slew{}. How "

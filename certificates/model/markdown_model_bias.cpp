@@ -58,7 +58,7 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
     const bool is_by_gains = sets.phases && !sets.starts.is_proved() && sets.phases->starts.is_proved();
     return std::string("## Bias and ripple\n\n") +
            (is_by_gains
-                ? "What is proved of them for the whole band stands at the top. Single cells need a "
+                ? "The results proved for the whole band stand at the top. Single cells need a "
                   "tube without noise in which errors shrink.\n\n"
                 : "Nothing is known of them: they need a set without noise in which errors shrink.\n\n");
   }

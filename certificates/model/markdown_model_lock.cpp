@@ -57,13 +57,12 @@ std::string model_lock_section(const Certificate& certificate) {
   }
   const FrequencyUnits units(tables.assume.sample_rate);
   std::string text =
-      "## Gaussian noise: the probability of losing lock\n\nGaussian noise has no bound, so nothing holds "
-      "for "
-      "ever. The tracker is *in lock* while its state is in a certified tube, a set of states around the one "
+      "## Gaussian noise: the probability of losing lock\n\nGaussian noise has no bound, so no guarantee is "
+      "valid for ever. The tracker is *in lock* while its state is in a certified tube, a set of states "
+      "around the one "
       "in "
       "which it settles. In the tube the expectation of a function that is large at its rim hardly grows "
-      "from "
-      "sample to sample; from that follows how probable it is that the tube is left. The same is true of all "
+      "from sample to sample; this bounds the probability that the tube is left. The same is true of all "
       "noise that is sub-Gaussian with this deviation: bounded noise of mean zero, for example.\n\n";
   const std::optional<Number>& assumed = tables.assume.gaussian->snr_db;
   std::vector<std::vector<std::string>> rows{
@@ -83,7 +82,7 @@ std::string model_lock_section(const Certificate& certificate) {
     }
   }
   if (sets.gaussian->is_proved()) {
-    text += "For the assumed noise, within any so many successive samples, however late:\n\n" +
+    text += "For the assumed noise, within any given number of successive samples, however late:\n\n" +
             over_samples(*sets.gaussian, static_cast<int>(tables.model.samples.size())) + "\n";
   }
   return text;

@@ -99,8 +99,8 @@ std::string model_phases_section(const Certificate& certificate) {
 std::string model_averages_section(const Certificate& certificate) {
   const model::AveragesProof& averages = *model_sets(certificate).averages;
   const FrequencyUnits units(model_tables(certificate.design).assume.sample_rate);
-  return "## More noise, and starts further off\n\nWhat turns with the signal in this loop is known, and can "
-         "be averaged. More is proved to be tolerated in this way:\n\n" +
+  return "## More noise, and starts further off\n\nThe part of this loop that turns with the signal is "
+         "known, and can be averaged. More is proved to be tolerated in this way:\n\n" +
          gain_limits_table(averages.noise ? &*averages.noise : nullptr, nullptr, averages.starts, units) +
          "A statement that the tracker tolerates noise, or that a set contains frequency errors, is proved "
          "in "

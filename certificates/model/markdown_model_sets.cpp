@@ -326,8 +326,8 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
   if (model_tables(certificate.design).require.sets.frequency_error_below &&
       (deciding.is_proved() || deciding.has_part())) {
     text +=
-        "Of the set that decides the required frequency error, only the levels that keep it are used, if the "
-        "assumed starts are inside them.\n\n";
+        "The set that decides the required frequency error is used only at the levels that keep that error, "
+        "if the assumed starts are inside them.\n\n";
   }
   if (!assume.start_within.empty() && (deciding.is_proved() || deciding.has_part()) &&
       std::isfinite(deciding.start_share)) {

@@ -606,7 +606,8 @@ class ModelClaims {
     if (covers_assumptions() && (sets_->gains || deciding_->is_without_tubes())) {
       return std::isfinite(deciding_->start_share)
                  ? fmt::format(
-                       "Of the assumed starts, only deviations {} times as large are proved to settle.",
+                       "Only deviations {} times as large as those of the assumed starts are proved to "
+                       "settle.",
                        below(1.0 / deciding_->start_share))
                  : "No such starts, however close to the steady state, are proved to settle.";
     }

@@ -40,7 +40,7 @@ std::optional<TableObjection> objection_to_noise(const ModelAssumptions& assume,
   return asks_for_ever
              ? std::optional(TableObjection{
                    "require",
-                   "nothing holds for ever with Gaussian noise, which exceeds every bound some time; "
+                   "no guarantee is valid for ever with Gaussian noise, which exceeds every bound some time; "
                    "allowed: probability_of_losing_lock_below, bias_below, ripple_below",
                    {}})
              : std::nullopt;

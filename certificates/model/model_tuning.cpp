@@ -271,7 +271,7 @@ class Search {
     const std::string after = show_value(best_.second.values);
     std::vector<std::string> notes;
     if (changes.empty()) {
-      notes.push_back(fmt::format("Of {} designs none is better than the given one: {} is {}.",
+      notes.push_back(fmt::format("None of {} designs is better than the given one: {} is {}.",
                                   scores_.size(), words, after));
     } else {
       notes.push_back(fmt::format("{}: {} goes from {} to {}.", fmt::join(changes, ", "), words,

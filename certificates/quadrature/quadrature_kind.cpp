@@ -59,8 +59,8 @@ std::string coverage_section() {
          "that "
          "satisfy the assumptions, any noise and any change of frequency within the bounds, with any "
          "statistics, at constant amplitude.\n- The tracker is covered as it runs in double precision: IEEE "
-         "754, rounding to nearest, sine and cosine of the C library within 1 ulp, without -ffast-math. What "
-         "rounding adds to a step is bounded and added to noise and slew (docs/rounding.md).\n- Every "
+         "754, rounding to nearest, sine and cosine of the C library within 1 ulp, without -ffast-math. The "
+         "rounding error of a step is bounded and added to noise and slew (docs/rounding.md).\n- Every "
          "enclosure was computed with outward-rounded interval arithmetic: the true value lies in it.\n- "
          "Simulated numbers are marked ≈ and prove nothing.\n\n";
 }

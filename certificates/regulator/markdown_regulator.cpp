@@ -45,7 +45,7 @@ std::string output_section(const Certificate& certificate) {
 
 std::string tracker_section(const Certificate& certificate) {
   const Certificate& tracker = regulator_particulars(certificate).tracker;
-  return "## The frequency tracker\n\nWhat follows is about the tracker alone.\n\n" +
+  return "## The frequency tracker\n\nThis section concerns the tracker alone.\n\n" +
          markdown::with_lower_headings(kind_of(tracker.design).sections(tracker, {}));
 }
 

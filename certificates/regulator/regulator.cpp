@@ -110,8 +110,9 @@ class RegulatorClaims {
     for (const theorems::Condition& condition : found_->conditions) {
       if (condition.verdict != Verdict::proved) {
         const std::string& why = regulator_particulars(*certificate_).promise.objection;
-        return condition.id != "tracker" || why.empty() ? condition.reason
-                                                        : fmt::format("Of the frequency tracker: {}.", why);
+        return condition.id != "tracker" || why.empty()
+                   ? condition.reason
+                   : fmt::format("The frequency tracker does not qualify: {}.", why);
       }
     }
     return "The tracker's certificate does not prove what this needs.";

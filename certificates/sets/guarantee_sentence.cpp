@@ -70,7 +70,7 @@ std::string objection(const sets::StartResult& starts) {
   if (failing == nullptr) {
     return "An invariant set is certified, but the assumed start is not proved to lie in it.";
   }
-  return failing->reason + (starts.proved_instead.empty() ? "" : " What is proved: " + starts.proved_instead);
+  return failing->reason + (starts.proved_instead.empty() ? "" : " Proved instead: " + starts.proved_instead);
 }
 
 }  // namespace

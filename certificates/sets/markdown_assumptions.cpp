@@ -107,7 +107,7 @@ std::string assumptions_section(const Assumptions& assume, const std::string& co
                                                "w =", code(*assume.frequency_walk),
                                                in_both_units({*assume.frequency_walk}, units))
                                          : row("frequency", "", "constant", ""));
-    rows.push_back(row("for so many samples", "N =", code(assume.samples.value()), "samples"));
+    rows.push_back(row("number of samples", "N =", code(assume.samples.value()), "samples"));
   } else {
     rows.push_back(row("measurement noise, every sample", "|v(k)| \\le", code(assume.noise), "signal units"));
     rows.push_back(row("change of frequency, every sample", "|\\omega(k+1) - \\omega(k)| \\le",

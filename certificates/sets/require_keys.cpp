@@ -100,7 +100,7 @@ std::optional<TableObjection> objection_to(const Assumptions& assume, const Requ
   return asks_for_ever
              ? std::optional(TableObjection{
                    "require",
-                   "nothing holds for ever with Gaussian noise, which exceeds every bound some time; "
+                   "no guarantee is valid for ever with Gaussian noise, which exceeds every bound some time; "
                    "allowed: probability_of_losing_lock_below, rms_frequency_error_below"})
              : std::nullopt;
 }

@@ -146,8 +146,8 @@ std::string single_channel_remarks(const Certificate& certificate) {
     return text.empty() ? "" : text + "\n";
   }
   return text + fmt::format(
-                    "- Of the statements on the paper's Propositions 1 and 2, {} are true, {} undecided; "
-                    "false: {} (see `published-theorems.md`).\n\n",
+                    "- Statements on the paper's Propositions 1 and 2: {} true, {} undecided; false: {} (see "
+                    "`published-theorems.md`).\n\n",
                     proved, undecided, refuted.empty() ? "none" : refuted);
 }
 
@@ -165,7 +165,7 @@ std::string recursion_section(const Certificate& certificate) {
     return heading + objection + "\n\n";
   }
   return heading +
-         "What follows is the certificate of this filter as a design of the tracker `model`, in exact "
+         "This section is the certificate of this filter as a design of the tracker `model`, in exact "
          "arithmetic "
          "and at a constant frequency. Without a leak its sets are ellipsoids of the estimate alone, with "
          "the "
@@ -268,7 +268,7 @@ std::string single_channel_coverage_section() {
          "contraction certificate is valid at every phase, for every frequency that stays in "
          "the band, and for any noise and any change of frequency within the bounds, with any statistics. It "
          "covers a tracker without a leak, started with the steady-state covariance, and a signal of "
-         "constant amplitude.\n- What is proved by the structure of the filter covers the tracker with a "
+         "constant amplitude.\n- Results proved by the structure of the filter cover the tracker with a "
          "leak, too, "
          "at a constant frequency and in exact arithmetic, started in the sets that are named.\n- The bias "
          "is that of the steady state which the tracker reaches from the "
@@ -276,7 +276,7 @@ std::string single_channel_coverage_section() {
          "table says so. Elsewhere it is not enclosed.\n- The contraction certificate covers the tracker as "
          "it "
          "runs in double precision: IEEE 754, rounding to nearest, sine and cosine of the C library within 1 "
-         "ulp, without -ffast-math. What rounding adds to a step is bounded and added to noise and slew "
+         "ulp, without -ffast-math. The rounding error of a step is bounded and added to noise and slew "
          "(docs/rounding.md). The bias, the frozen filter and the statements on the paper's propositions are "
          "about exact arithmetic.\n- The figures of the run show one simulation "
          "in double precision and prove nothing.\n\n";

@@ -361,7 +361,7 @@ std::vector<std::string> notes_of(const TuningProblem& problem, const TuningOutc
   const Objective objective = problem.objective;
   const auto words = words_of(objective).words;
   if (changes.empty()) {
-    notes.push_back(fmt::format("Of {} designs none is better than the given one: {} is {}.",
+    notes.push_back(fmt::format("None of {} designs is better than the given one: {} is {}.",
                                 outcome.looked_at, words, shown(outcome.after, objective, *problem.assume)));
   } else {
     notes.push_back(fmt::format("{}: {} goes from {} to {}.", fmt::join(changes, ", "), words,

@@ -250,7 +250,7 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   const bool asks_for_ever = design.frequency_error_below || design.settles_within || design.largest_noise ||
                              design.largest_slew || design.radius;
   if (design.deviation && asks_for_ever) {
-    objections.emplace_back("nothing holds for ever in Gaussian noise");
+    objections.emplace_back("no guarantee is valid for ever in Gaussian noise");
   }
   return design;
 }

@@ -48,7 +48,7 @@ std::vector<Statement> model_statements() {
               "of its designs and the outputs of three samples.",
               unseen ? Verdict::proved : Verdict::undecided,
               "x3 and x3 + 40 pi have the same outputs at the leak 0.05 (40 pi and 0.95 times 40 pi are "
-              "whole turns), x3 and x3 + 200 pi at 0.01. Over more samples a leak tells them apart.",
+              "whole turns), x3 and x3 + 200 pi at 0.01. Over more samples a leak distinguishes them.",
               {}),
           make_statement("paper-1996/locally-observable/printed",
                          "The system (1), (2) is strongly locally observable.",

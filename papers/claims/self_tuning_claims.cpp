@@ -109,7 +109,7 @@ std::vector<Statement> monitoring_statements() {
                      decide(condition, Interval(1e12), Strictness::weak),
                      "Two parameters, P = I, rbar = Lambda = 1, phi along the first with phi'P phi = 1: the "
                      "condition number doubles with every sample, and is " +
-                         enclosed(condition) + " after 50. What is bounded is rbar lambda_max(P).",
+                         enclosed(condition) + " after 50. The bounded quantity is rbar lambda_max(P).",
                      {}),
       make_statement(
           "chapter-5/theorem-5.2/regressor-step/printed",

@@ -140,8 +140,7 @@ std::vector<Statement> symmetries() {
                    commutes<Square, 3>({{true, true, false}, false, true})),
           symmetry("phase-mirrored",
                    "The filter of (phi, omega, A) at (-phi, -omega, -A) does the same, mirrored: no "
-                   "measurement tells them "
-                   "apart.",
+                   "measurement distinguishes them.",
                    commutes<Phase, 3>({{true, true, true}})),
           symmetry("phase-half-turn", "The filter of (phi, omega, A) at (phi + pi, omega, -A) does the same.",
                    commutes<Phase, 3>({{false, false, true}, true})),

@@ -96,7 +96,7 @@ Statement noiseless_statement() {
                         "non-integers 1/(j + x) : "
                         "1/(k + x) = 1/(j + y) : 1/(k + y) for two bins leaves (j - k)(y - x) = 0, an "
                         "identity, and at an integer one bin "
-                        "alone is not 0, which tells it from all others.",
+                        "alone is not 0, which distinguishes it from all others.",
                         {});
 }
 

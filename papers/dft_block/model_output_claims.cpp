@@ -119,15 +119,14 @@ std::vector<Statement> ambiguity_statements() {
           "4.3.1): an offset of T bins more, 2 pi rad/sample, gives the same outputs.",
           decide(abs(near - far), Interval(1e-9), Strictness::weak),
           "T = 2048, x3 = 0.25, bin M: the outputs of (4.9) have the size " + enclosed(near) + " and " +
-              enclosed(far) + " times x1^2. Ambiguous is the phase.",
+              enclosed(far) + " times x1^2. Only the phase is ambiguous.",
           {}),
-      make_statement(
-          "chapter-4/ambiguity/corrected",
-          "Of the samples (4.1), and so of their transform (4.5), it is true: 2 pi rad/sample more, or a "
-          "phase of 2 pi more, change nothing, for T = 64" +
-              kNineDigits + ".",
-          decide(off, Interval(1e-9), Strictness::weak),
-          "The samples differ by " + enclosed(off) + " at most.", {}),
+      make_statement("chapter-4/ambiguity/corrected",
+                     "The samples (4.1), and so their transform (4.5), have this ambiguity: 2 pi rad/sample "
+                     "more, or a phase of 2 pi more, change nothing, for T = 64" +
+                         kNineDigits + ".",
+                     decide(off, Interval(1e-9), Strictness::weak),
+                     "The samples differ by " + enclosed(off) + " at most.", {}),
       make_statement(
           "chapter-4/square-root/amplitude",
           "The square root in (4.12) keeps the estimated amplitude, 4 pi x1^2, from being negative.",

@@ -76,12 +76,10 @@ std::string summary(const std::vector<Row>& rows) {
     return count(rows, [&](const Row& row) { return row.place.role == PaperRole::sentence && (row.*is)(); });
   };
   return fmt::format(
-      "**Of the sentences that the publications assert, {} are PROVED and {} REFUTED; {} claims are open.** "
-      "What "
-      "engineers take from these publications survives. What does not is mostly a constant, a sign or a "
-      "missing "
-      "assumption, and one thing that matters: a guarantee with numbers, in place of which stand the "
-      "certificates of this program.\n\n{}\n",
+      "**{} of the sentences that the publications assert are PROVED and {} REFUTED; {} claims are open.** "
+      "The results that engineers take from these publications survive. The failures are mostly a constant, "
+      "a sign or a missing assumption, and one thing that matters: a guarantee with numbers, which the "
+      "certificates of this program replace.\n\n{}\n",
       asserted(&Row::stands), asserted(&Row::falls), count(rows, is_open),
       certificates::markdown::table({"Publication", "What stands", "What falls", "In its place"}, lines));
 }
@@ -102,8 +100,7 @@ std::string count_sentences(const std::vector<Row>& rows) {
       "publications assert {} of them: {} are PROVED for every design, {} are REFUTED for at least one. The "
       "other {} are hypotheses of theorems, asked of the designs that the publications print: {} are PROVED "
       "for "
-      "every design, {} are REFUTED for at least one. Of the sentences that are REFUTED {} are false as "
-      "stated, "
+      "every design, {} are REFUTED for at least one. {} of the REFUTED sentences are false as stated, "
       "{} need an assumption that is not stated, {} are slips without consequence; the others fail for "
       "numbers "
       "that are printed. {} sentences of ours stand beside those that they repair. REFUTED is about a "

@@ -207,8 +207,8 @@ std::string caption_document(const std::vector<Entry>& entries, const CaptionRun
       "observer inverts its filters, {} means and deviations come out to the last printed digit. The paper "
       "names neither window nor phase: a search over these three numbers found them. That shows that the "
       "captions can come out, not that the authors took this window. In {} other choices, drawn, {:.0f} to "
-      "{:.0f} of the twelve come out, all twelve in {}; over a whole period of the disturbed signal {}. What "
-      "depends most on the choice are the four numbers at 10 rad/s; the means 2.0 and 3.0 have too few "
+      "{:.0f} of the twelve come out, all twelve in {}; over a whole period of the disturbed signal {}. The "
+      "four numbers at 10 rad/s depend most on the choice; the means 2.0 and 3.0 have too few "
       "digits to say much. With the printed ℓ = 5, {} come out in any of these windows: at {:.0f} % of the "
       "moments or more the estimated x3 is not positive, and there is no estimate.\n\n",
       window.begin, window.end, window.phase, of_twelve(how_many_come_out(runs.found.numbers)),

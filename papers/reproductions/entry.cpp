@@ -248,11 +248,13 @@ std::string count_sentence(std::span<const Entry> entries, std::string_view fitt
   std::string text;
   for (const auto& [verdict, forms] : words) {
     if (const std::size_t number_of = count(verdict); number_of > 0) {
-      text += (text.empty() ? "" : ", ") + counted(number_of, forms.first, forms.second);
+      const std::string share =
+          text.empty() ? fmt::format("{} of {}", number_of, counted(entries.size(), "entry", "entries"))
+                       : fmt::format(", {}", number_of);
+      text += fmt::format("{} {}", share, number_of == 1 ? forms.first : forms.second);
     }
   }
-  const std::string begin = fitted.empty() ? "Of" : fmt::format("With {}, of", fitted);
-  return fmt::format("{} {}, {}.", begin, counted(entries.size(), "entry", "entries"), text);
+  return fmt::format("{}{}.", fitted.empty() ? std::string() : fmt::format("With {}, ", fitted), text);
 }
 
 std::string too_few_runs(std::span<const Entry> entries, int runs) {

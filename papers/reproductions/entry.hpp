@@ -116,7 +116,7 @@ struct Entry {
 /// The rows as a table in Markdown: place, what, printed, ours, verdict, id.
 [[nodiscard]] std::string entry_table(std::span<const Entry> entries);
 
-/// "Of 12 entries, 8 agree, 3 do not agree, 1 cannot be compared." `fitted`: the quantity fitted to the
+/// "8 of 12 entries agree, 3 do not agree, 1 cannot be compared." `fitted`: the quantity fitted to the
 /// compared numbers themselves, "a signal fitted to this table": then the sentence begins with it.
 [[nodiscard]] std::string count_sentence(std::span<const Entry> entries, std::string_view fitted = {});
 

@@ -269,7 +269,7 @@ std::string reading_sentence(const std::vector<StartRates>& rates, int seeds) {
     return "Either reading can have produced the published figures" + criterion + ".";
   }
   return fmt::format(
-      "Of the two readings only Q = q diag({}) can have produced the published figures{}: the other one "
+      "Only the reading Q = q diag({}) can have produced the published figures{}: the other one "
       "fails for every start tried.",
       printed == Reproduced::no ? "1, 1, 1" : "0, 0, 1", criterion);
 }

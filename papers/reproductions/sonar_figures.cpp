@@ -81,7 +81,7 @@ Figure draw_signals(double doppler) {
            "set xrange [0:100]\n"});
     }
   }
-  return draw_line_panels("measured.svg", "What is measured, at the largest and at the smallest range",
+  return draw_line_panels("measured.svg", "The measured signal, at the largest and at the smallest range",
                           "time [ms]", panels);
 }
 

@@ -200,10 +200,11 @@ std::string document(const std::vector<Entry>& entries, const std::array<SetStud
       "starts: the offset of (4.35) is within half a bin.\n\n" +
       all_choices_table(studies) +
       fmt::format(
-          "\n## The initial estimate\n\nOf (4.35) from one block at the largest range (−10, −20 and −30 "
-          "dB), {} starts each, with their standard errors, for constant offsets; the bound is that of "
-          "an unbiased estimate from the five bins. Deviations above it are outliers, those below it "
-          "the ends of the range, ±2 bins. What is proved of it is in "
+          "\n## The initial estimate\n\nThe table shows the estimate (4.35) from one block at the largest "
+          "range (−10, −20 and −30 "
+          "dB), {} starts each, with their standard errors, for constant offsets. The bound is that of an "
+          "unbiased estimate from the five bins. Deviations above it come from outliers, those below it from "
+          "the ends of the range, ±2 bins. The proved statements are in "
           "[block-tracker.md](../../block-tracker.md), section 9.\n\n",
           kStartsForARun * runs) +
       start_table(starts) +

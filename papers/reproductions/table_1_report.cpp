@@ -166,8 +166,8 @@ std::string table_1_document(const std::vector<Entry>& entries, const std::array
                     "the means are {:.3f}, {:.3f} and {:.3f} where {}, {} and {} are printed. The column "
                     "\"notch, best\" cannot be compared: neither that filter nor its parameters are printed. "
                     "The order of the two columns does not survive a search: *without leak* an EKF has "
-                    "{:.3f} at 17 dB, a third of what is printed as best, and a notch filter {:.3f}. What "
-                    "the table compares is the tuning, more than the filters.\n\n",
+                    "{:.3f} at 17 dB, a third of what is printed as best, and a notch filter {:.3f}. The "
+                    "table compares the tuning more than the filters.\n\n",
                     mean(points[0][1].good), mean(points[0][2].good), mean(points[0][3].good),
                     printed::kTable1[1].best.mean.text, printed::kTable1[2].best.mean.text,
                     printed::kTable1[3].best.mean.text, mean(points[0][0].best),

@@ -248,10 +248,9 @@ std::string vibration_document(const std::vector<Entry>& entries, std::ptrdiff_t
       "magnitude and phase of the ideal and the limiting controllers](figures/responses.svg)\n\n*Figures "
       "5.6, 5.7, 5.10 and 5.11: the ideal controller (broad grey) and the limits of Tables 5.1 and 5.2 as "
       "printed (thin black). They have the pole at π/6 = 0.52 rad/sample in common.*\n\nSimulated with "
-      "`trackers/regulator` in double precision; simulations prove nothing. What is computed from printed "
-      "numbers alone (bounds, poles, residues) is rounded double precision, too; by interval arithmetic it "
-      "is in "
-      "the [ledger](../ledger/report.md) (`chapter-5/efra-…`, `chapter-5/limits/…`).\n";
+      "`trackers/regulator` in double precision; simulations prove nothing. Values computed from printed "
+      "numbers alone (bounds, poles, residues) are rounded double precision, too; by interval arithmetic "
+      "they are in the [ledger](../ledger/report.md) (`chapter-5/efra-…`, `chapter-5/limits/…`).\n";
   return text;
 }
 

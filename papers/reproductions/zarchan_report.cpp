@@ -193,12 +193,13 @@ std::string document(const std::vector<Entry>& entries, int runs) {
       "## Printed and ours\n\n{} runs an experiment (seeds from 1 on; 64-bit Mersenne twister, Karney's "
       "normal deviates), with the filters of `trackers/zarchan` in double precision: sin(ωt), t up to 20 s, "
       "noise of deviation 1, TS = 0.1 s, starts and P(0) as in the listings. Ours: the share of the runs in "
-      "which it happened, of {} runs where {} do not decide it. What is said to happen agrees when it does "
-      "in more than half of the runs, and *all "
-      "the time* when it does in every run; what a slide only says of its own run, when at least 2.5 % of "
-      "ours do it. *Right*, or found: within {} rad/s (ω² within {} (rad/s)²) in all of the last 5 s; the "
-      "amplitude within {}, x and its derivative within {}, after 5 s: ω² within {}. With theory agrees what "
-      "is within one computed deviation at 20 s in 68 % of the runs, to ten points. These thresholds are "
+      "which it happened, of {} runs where {} do not decide it. An event that a slide states agrees when it "
+      "happens in more than half of the runs, and *all the time* when it happens in every run; an event that "
+      "a slide states only of its own run agrees when it happens in at least 2.5 % of ours. *Right*, or "
+      "found: within {} rad/s (ω² within {} (rad/s)²) in all of the last 5 s; the "
+      "amplitude within {}, x and its derivative within {}, after 5 s: ω² within {}. An estimate agrees with "
+      "theory when it is within one computed deviation at 20 s in 68 % of the runs, to ten percentage "
+      "points. These thresholds are "
       "ours. Simulations prove nothing.\n\n{}",
       runs, kTimesAsMany * runs, runs, kFrequencyRight, kFrequencyRight, kAmplitudeRight, kSignalRight,
       kRoughlyRight, entry_table(entries));

@@ -39,7 +39,7 @@ Statement linearization_point() {
       decide(abs(before - now), Interval(1e-9), Strictness::weak),
       "In exact lock on 0.5 rad/sample with x(t-1|t-1) = (1, 0, 1/2): the entry (1, 3) is " +
           enclosed(before) + " there, and " + enclosed(now) +
-          " at x(t|t), from which the state is predicted. What it does to the figures: reproduce "
+          " at x(t|t), from which the state is predicted. Its effect on the figures: reproduce "
           "bittanti-savaresi-2000.",
       {});
 }

@@ -33,7 +33,7 @@ class BlockTrack:
     phase : ndarray
         At the start of the block, rad; not wrapped.
     covariance : ndarray, (..., blocks, 3, 3)
-        Of (x1, x2, x3) = (sqrt(amplitude / (4 pi)), phase, offset), as the filter believes.
+        The covariance of (x1, x2, x3) = (sqrt(amplitude / (4 pi)), phase, offset), as the filter believes.
     lock : ndarray of str
         The lock over the last blocks: "settling" (too few of them), "lock", "false lock" (another offset
         explains more than twice as much of their power) or "no tone".

@@ -16,7 +16,7 @@ from .interval import Bound
 
 @dataclasses.dataclass(frozen=True)
 class Checked:
-    """What came of a design.
+    """The outcome of a design.
 
     Attributes
     ----------

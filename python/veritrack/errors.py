@@ -1,4 +1,4 @@
-"""What the package throws."""
+"""The errors that the package raises."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class InputError(VeritrackError, ValueError):
     line, column : int
         The place in it, from 1; 0 when unknown.
     message : str
-        What was found, and what is allowed, on one line.
+        The finding and what is allowed, on one line.
     """
 
     def __init__(self, file: str, line: int, column: int, message: str) -> None:

@@ -89,7 +89,7 @@ class Bound(Interval):
         "equal" and "enclosure": the number itself lies from `lo` to `hi`. "sampled": a search or a simulation
         gave it, and nothing is proved of it.
     words : str
-        What it is, with its unit; empty where only its symbol says it.
+        Its meaning, with its unit; empty where only its symbol says it.
     symbol : str
         LaTeX.
     claim : str

@@ -273,7 +273,7 @@ class QuadratureBatch(QuadratureEkf):
     Parameters, results and memory are those of QuadratureEkf; 8 filters or more are worth it. The widest
     instructions that the processor has are used (AVX-512, AVX2 or SSE2), and all of them give the same bits.
     From those of QuadratureEkf results differ by rounding: sine and cosine are within one unit in the last
-    place here, too, but not always the same double. What is certified of the filter is certified of both.
+    place here, too, but not always the same double. A certificate of the filter covers both.
     """
 
     _kind = _trackers.PackedQuadratureBatch

@@ -212,9 +212,9 @@ std::vector<Figure> draw_lock_figures(const Certificate& certificate) {
            std::move(decibels.script), "Probability of losing lock over the signal-to-noise ratio",
            std::move(decibels.data)},
           {"lock-samples.svg",
-           "Probability of losing lock within so many samples, each at a ratio of its own: certified, "
+           "Probability of losing lock within a number of samples, each at a ratio of its own: certified, "
            "simulated and extrapolated, which proves nothing, and by the union bound.",
-           std::move(samples.script), "Probability of losing lock within so many samples",
+           std::move(samples.script), "Probability of losing lock within a number of samples",
            std::move(samples.data)}};
 }
 

@@ -58,7 +58,7 @@ std::string assumptions_section(const TrackReport& report) {
   const AssumptionFindings& found = report.result.assumptions;
   if (found.judged > 0) {
     text += fmt::format(
-        "\nWhat was seen are estimates. A {} is fitted to each stretch of {} samples in lock, with an "
+        "\nThe values seen are estimates. A {} is fitted to each stretch of {} samples in lock, with an "
         "amplitude and a "
         "frequency that may drift in it; {} of {} samples lie in such stretches, and only these were tested. "
         "Around the "

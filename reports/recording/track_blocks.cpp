@@ -70,7 +70,7 @@ bool blocks_are_in_lock(const TrackResult& result) {
 std::string blocks_section(const TrackReport& report, const std::string& figure) {
   const TrackResult& result = report.result;
   std::string text = fmt::format(
-      "## Blocks\n\n{} blocks of {} samples. Of the power of a block's bins, the estimate leaves a share "
+      "## Blocks\n\n{} blocks of {} samples. The estimate leaves a share of the power of a block's bins "
       "unexplained: that of the noise in lock, and nearly all in a false lock, about a whole number of bins "
       "off. "
       "Over about 20 blocks, with weights that fall: a tone is there when some offset explains at least "

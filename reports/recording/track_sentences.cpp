@@ -111,7 +111,7 @@ std::string nis_sentence(const TrackResult& result) {
     return fmt::format(
         "Over-confident: {}. Squared innovations are {:.3g} times as large as the filter believes. The "
         "recording has {}: "
-        "mend that first, and then judge R and Q.",
+        "correct that first, and then judge R and Q.",
         numbers, ratio, names_of(result.recording));
   }
   if (verdict == NisVerdict::over_confident) {

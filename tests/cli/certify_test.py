@@ -192,7 +192,7 @@ class Certify(CliTestCase):
         self.assertEqual(claim["verdict"], "undecided")
         self.assertRegex(claim["reason"], r"[0-9]+ of [0-9]+ cells of assumed starts could not be followed")
         self.assertRegex(claim["reason"],
-                         r" What is proved: In double precision \(.*\), for a tone of .*, with measurement noise of at most "
+                         r" Proved instead: In double precision \(.*\), for a tone of .*, with measurement noise of at most "
                          r"\S+ of the amplitude \(.*\), started within .* and with P\(0\|0\) ")
         self.assertEqual(verdicts.get("ekf/capture-at-reduced-noise"), "proved")
         capture = next(one for one in report["derivations"] if one["id"] == "capture")

@@ -32,7 +32,7 @@ SearchedBand searched_band(const Interval& band, std::size_t channels) {
         is_one ? "at pi, half the sample rate, the samples of one channel only change their sign, "
                  "and do not tell the amplitude from the phase: there is no steady state to "
                  "settle in"
-               : "frequencies above pi, half the sample rate, cannot be told from lower ones"));
+               : "frequencies above pi, half the sample rate, cannot be distinguished from lower ones"));
   }
   return searched;
 }

@@ -74,7 +74,7 @@ std::optional<LinearWorstCase> linear_worst_case(const TrackedTone& tone, double
                                                  double slew, int phases) {
   const rigor::NearestRounding nearest;
   if (!(noise >= 0.0) || !(slew >= 0.0) || phases <= 0) {
-    throw std::invalid_argument("disturbances that are none, or no phases");
+    throw std::invalid_argument("invalid disturbances, or no phases");
   }
   const SteadyState steady = find_steady_state(tone, frequency);
   if (steady.outcome != SteadyStateOutcome::settled) {

@@ -36,7 +36,7 @@ TubeCell cell_of(const ErrorGrid& grid, std::size_t number) {
 void require_grid(const ErrorGrid& grid) {
   const auto is_power_of_two = [](int n) { return n > 0 && (n & (n - 1)) == 0; };
   if (!is_power_of_two(grid.phases) || !is_power_of_two(grid.frequencies) || !is_power_of_two(grid.finer)) {
-    throw std::invalid_argument("a grid that is none");
+    throw std::invalid_argument("an invalid grid");
   }
 }
 

@@ -34,10 +34,11 @@ bool prove_piece(const trackers::ToneModel<Interval>& design, const LockRequest&
   alone.lowest_frequency = alone.highest_frequency = middle;
   const auto best = propose_lock_set(alone);
   if (!best || !(best->margin > 0.0)) {
-    band.reason = frequencies_of(alone) +
-                  (best ? "the search found no set in which it holds at all sampled points. Less noise, a "
-                          "smaller leak or lower frequencies may help."
-                        : "there is no steady state to search about.");
+    band.reason =
+        frequencies_of(alone) +
+        (best ? "the search found no set in which it is satisfied at all sampled points. Less noise, a "
+                "smaller leak or lower frequencies may help."
+              : "there is no steady state to search about.");
     return false;
   }
   const auto proposal = propose_lock_set(piece);

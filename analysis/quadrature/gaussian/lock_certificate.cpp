@@ -111,9 +111,10 @@ Condition drift(const LockQuestion& question, const std::optional<LockProposal>&
           ? "it is proved in " + std::to_string(verification.cells) + " cells that cover the set."
       : proposal->margin <= 0.0
           ? "at " + db_of(question) +
-                " the search found no set in which it holds at all sampled points. Less noise, or a smaller "
+                " the search found no set in which it is satisfied at all sampled points. Less noise, or a "
+                "smaller "
                 "gain, may help."
-          : "a set was found in which it holds at all sampled points, but " + verification.reason;
+          : "a set was found in which it is satisfied at all sampled points, but " + verification.reason;
   return condition;
 }
 

@@ -172,9 +172,9 @@ Condition invariant_set(const LeakQuestion& question, const Search& search,
                       search.why,
                       theorems::Sense::at_most};
   if (!rate && search.branch.verdict == Verdict::proved) {
-    invariant.reason =
-        "no set could be certified for this noise and slew: " + search.why + " Of the limits: " +
-        sets::beyond_the_limits(question.tracker, search.largest_noise, search.largest_slew) + ".";
+    invariant.reason = "no set could be certified for this noise and slew: " + search.why + " The limits: " +
+                       sets::beyond_the_limits(question.tracker, search.largest_noise, search.largest_slew) +
+                       ".";
   }
   return invariant;
 }

@@ -112,7 +112,7 @@ void verify_cell(const Design& design, const sets::QuadratureTube& tube, const S
   }
   setting.directions = directions_of(setting.metric);
   if (!sees_directions(setting.directions)) {
-    result.reason = "the directions of the set could not be told apart.";
+    result.reason = "the directions of the set could not be distinguished.";
     return;
   }
   settings.frequencies = tube.parameter - Interval(tube.parameter_center);

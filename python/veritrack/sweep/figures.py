@@ -60,7 +60,7 @@ def _edges(centres: np.ndarray, is_logarithmic: bool) -> np.ndarray:
 
 
 def is_met(values: Values, level: float | None) -> np.ndarray:
-    """What the thick line goes around: the bound meets the level; without a level, the design is PROVED."""
+    """Inside the thick line: the bound meets the level; without a level, the design is PROVED."""
     if level is None:
         return values.verdict == "proved"
     # Where nothing is proved the bound is beyond every level.

@@ -178,7 +178,7 @@ def _report(reader: Reader, document: Mapping[str, Any], axes: Sequence[Axis],
 
 
 def _require_design(reader: Reader, spec: Spec, document: Mapping[str, Any]) -> None:
-    """What is wrong with all designs is better known before the first is certified.
+    """Errors that concern all designs are found before the first is certified.
 
     The design at the first point has lines of its own, which nobody has seen: messages name the specification
     or the file of the base design.

@@ -21,7 +21,7 @@ from .work import recorded_bounds
 
 @dataclasses.dataclass(frozen=True)
 class Recheck:
-    """What came of rows.
+    """The outcome of checking rows.
 
     Attributes
     ----------

@@ -108,7 +108,7 @@ def _headline(spec: Spec, rows: Sequence[Row], counts: Mapping[str, int]) -> str
 
 
 def _extent_sentence(spec: Spec, rows: Sequence[Row]) -> str:
-    """What was looked for, and what that says of the bounds."""
+    """The extent of the search, and what that says of the bounds."""
     words = f'Extent "{spec.extent}": {EXTENTS[spec.extent]}.'
     early = sum(stopped_early(spec, row) and bool(row.result.bounds) for row in rows)
     if early:
@@ -149,7 +149,7 @@ def _level_sentence(spec: Spec, rows: Sequence[Row]) -> list[str]:
     words = first.words or name.replace("_", " ")
     return [f"For {sum(met)} designs this is certified to be {'at least' if at_least else 'at most'} "
             f"{spec.report['level']}: {_md(words)}."
-            + (f" Of {open_} more the search stopped early, and a full one may find that as well." if open_ else ""),
+            + (f" The search stopped early for {open_} more, and a full one may find that as well." if open_ else ""),
             ""]
 
 

@@ -28,7 +28,7 @@ _MOST_IN_BATCH = 200
 _BATCHES_PER_THREAD = 2
 
 _LOST = (OSError, TimeoutError, distributed.TimeoutError)
-"""What a call to a scheduler or a worker raises that is gone."""
+"""The errors of a call to a scheduler or a worker that is gone."""
 
 Progress = Callable[[int, int, float], None]
 """Told points with a result, all points, and points a second since the start."""
@@ -118,7 +118,7 @@ class _Cluster:
 
 def _batches(spec: Spec, store: Store, program: str, again: bool, size: Callable[[], int],
              noted: Callable[[int], None]) -> Iterator[Batch]:
-    """What is left to do. Points whose design is known from elsewhere are stored as they are met, and `noted`."""
+    """The work that is left. Points whose design is known from elsewhere are stored as they are met, and `noted`."""
     sweep = spec.identity(program)
     waiting: list[Point] = []
 

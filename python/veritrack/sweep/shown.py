@@ -1,4 +1,4 @@
-"""What the report of a sweep shows: figures, the bound of the regions, the front."""
+"""The contents of a sweep's report: figures, the bound of the regions, the front."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def figures_of(spec: Spec, rows: Sequence[Row]) -> list[ReportFigure]:
     if name is not None and plane and rows:
         values = _values(spec, rows, name, plane)
         level = level_of(spec)
-        others = " Of designs that differ along other axes only, the best one is shown." if len(spec.axes) > len(
+        others = " The best of the designs that differ along other axes only is shown." if len(spec.axes) > len(
             plane) else ""
         if len(plane) == 2:
             best = "smallest" if values.is_at_most else "largest"

@@ -87,7 +87,7 @@ class Spec:
         Its tables, with [require] of the sweep.
     axes : tuple of Axis
     count, method, seed
-        Of the samples of axes without points; the count is 1 where there are no such axes.
+        How axes without points are sampled; the count is 1 where there are no such axes.
     extent : str
         As for veritrack.certify.
     record : tuple of str

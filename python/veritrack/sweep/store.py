@@ -33,7 +33,7 @@ class StoreError(VeritrackError):
 
 @dataclasses.dataclass(frozen=True)
 class Result:
-    """What came of a design.
+    """The outcome of a design.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Store:
     ----------
     path : path
     most_pages : int
-        Of 4 KiB: a limit on the file, 0 for none; beyond it the file is as if the disk were full.
+        A limit on the file, in pages of 4 KiB; 0 disables it. Beyond it the file is as if the disk were full.
     """
 
     def __init__(self, path: str | os.PathLike[str], most_pages: int = 0) -> None:
@@ -117,7 +117,7 @@ class Store:
                                (sweep, name, spec, base, program))
 
     def add(self, sweep: str, points: Iterable[tuple[int, str, Sequence[Any]]], results: Iterable[Result]) -> int:
-        """Adds points (number, key, values) and results. What is there stays, unless it is to be tried again.
+        """Adds points (number, key, values) and results. Existing ones stay, unless they are to be tried again.
 
         Returns
         -------
@@ -171,7 +171,7 @@ class Store:
                                       "WHERE sweep = ?", (sweep,)).fetchone()[0]
 
     def bound_names(self, sweep: str) -> list[str]:
-        """Of all bounds that its results have."""
+        """The names of all bounds that its results have."""
         with self._errors():
             return [name for name, in self._file.execute(
                 "SELECT DISTINCT each.key FROM points JOIN results USING (key), json_each(results.bounds) AS each "

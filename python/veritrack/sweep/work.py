@@ -1,4 +1,4 @@
-"""What a worker does: a batch of designs, one after the other."""
+"""The work of a worker: a batch of designs, one after the other."""
 
 from __future__ import annotations
 

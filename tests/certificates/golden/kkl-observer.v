@@ -1,5 +1,5 @@
 
-(* What stands above is the same for all designs of the kind. *)
+(* Everything above is the same for all designs of the kind. *)
 
 (* The design: rates in 1/s, s = x3 = omega^2 in (rad/s)^2. *)
 Definition l1 : R := 1.

@@ -1,5 +1,5 @@
 
-(* What stands above is the same for all designs of the kind. *)
+(* Everything above is the same for all designs of the kind. *)
 
 (* The gain and the frequency at which the design's filter is frozen. *)
 Definition gain_1 : R := (435768406828685 / 2 ^ 49).

@@ -1,5 +1,5 @@
 
-(* What stands above is the same for all designs of the kind. *)
+(* Everything above is the same for all designs of the kind. *)
 
 (* The design. *)
 Definition here : design := {|

@@ -120,9 +120,9 @@ TEST_CASE("a deviation supports nothing where its mean cannot be compared") {
 TEST_CASE("counts, warnings and the table") {
   const std::array<Entry, 3> entries{entry_of(kNumber, decided(true, "2.5")), entry_of(kSentence, {}),
                                      entry_of(kNumber, decided(true, "2.5"))};
-  CHECK(count_sentence(entries) == "Of 3 entries, 2 agree, 1 is undecided.");
+  CHECK(count_sentence(entries) == "2 of 3 entries agree, 1 is undecided.");
   CHECK(count_sentence(entries, "a signal fitted to this table") ==
-        "With a signal fitted to this table, of 3 entries, 2 agree, 1 is undecided.");
+        "With a signal fitted to this table, 2 of 3 entries agree, 1 is undecided.");
   CHECK(too_few_runs(entries, 1).find("1 run is too few for 1 of the 3 entries") == 0);
   CHECK(too_few_runs(entries, 5).find("5 runs are too few for 1 of the 3 entries") == 0);
   CHECK(too_few_runs(std::span(entries).first(1), 5).empty());

@@ -38,8 +38,7 @@ void QuadratureBatch::run(const BatchSamples& samples, const BatchTargets& targe
                           std::size_t last, InstructionSet set) {
   const bool is_part = first % kGroup == 0 && (last == size_ || (last < size_ && last % kGroup == 0));
   if (!is_part || !has(set)) {
-    throw std::invalid_argument(
-        "a part of the batch that is none, or instructions that this processor lacks");
+    throw std::invalid_argument("an invalid part of the batch, or instructions that this processor lacks");
   }
   detail::RunGroups* run_groups = set == InstructionSet::avx512 ? detail::run_groups_avx512
                                   : set == InstructionSet::avx2 ? detail::run_groups_avx2

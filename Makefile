@@ -108,8 +108,8 @@ format:
 
 # The rooms that everything rests on. The others take the interval arithmetic through minutes of search, which the
 # sanitizers would make hours of; the design reader goes through the fuzzers, which run under them.
-SANITIZED := rigor_tests theorems_tests search_tests trackers_tests trackers_quadrature_tests trackers_single_channel_tests \
-  trackers_kkl_observer_tests trackers_signals_tests
+SANITIZED := rigor_tests statements_tests theorems_tests search_tests trackers_tests trackers_quadrature_tests \
+  trackers_single_channel_tests trackers_kkl_observer_tests trackers_signals_tests
 
 sanitize:
 	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(FUZZ_PACKAGES)

@@ -38,7 +38,7 @@ set(veritrack_headers "${CMAKE_INSTALL_INCLUDEDIR}/veritrack")
 install(DIRECTORY trackers analysis certificates DESTINATION "${veritrack_headers}" COMPONENT development
         FILES_MATCHING PATTERN "*.hpp")
 
-set(veritrack_public trackers rigor search theorems sets linear quadrature single_channel kkl_observer model regulator dft_block certificates)
+set(veritrack_public trackers rigor search statements theorems sets linear quadrature single_channel kkl_observer model regulator dft_block certificates)
 foreach(name IN LISTS veritrack_public)
   set_target_properties(veritrack_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS veritrack_${name} EXPORT veritrack-targets

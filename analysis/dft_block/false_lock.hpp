@@ -7,7 +7,7 @@
 
 #include "analysis/dft_block/block_lock.hpp"
 #include "analysis/dft_block/lock_set.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::dft_block {
 

@@ -13,7 +13,7 @@
 #include "analysis/dft_block/tone_sums.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::dft_block {
 

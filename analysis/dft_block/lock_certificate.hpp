@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "analysis/dft_block/lock_set.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::dft_block {
 

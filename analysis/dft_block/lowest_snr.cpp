@@ -10,7 +10,7 @@
 #include "analysis/dft_block/loss_proposals.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::dft_block {
 

@@ -9,7 +9,7 @@
 #include "analysis/kkl_observer/kkl_identities.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/eigenvalues.hpp"
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/paper_findings.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
 namespace veritrack::kkl_observer {

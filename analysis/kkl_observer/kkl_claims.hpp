@@ -6,7 +6,7 @@
 
 #include "analysis/kkl_observer/kkl_ell.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
 namespace veritrack::kkl_observer {

@@ -4,7 +4,7 @@
 
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/search/branch_and_bound.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::kkl_observer {
 

@@ -9,7 +9,7 @@
 
 #include "analysis/kkl_observer/kkl_ell.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::kkl_observer {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::kkl_observer {
 

@@ -7,7 +7,7 @@
 
 #include "analysis/regulator/inverse_filter.hpp"
 #include "analysis/rigor/elementary.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::regulator {
 

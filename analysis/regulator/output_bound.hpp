@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/rigor/interval.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::regulator {
 

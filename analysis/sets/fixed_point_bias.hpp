@@ -14,7 +14,7 @@
 #include "analysis/rigor/verdict.hpp"
 #include "analysis/sets/fixed_point_branch.hpp"
 #include "analysis/sets/fixed_point_quadrature.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::sets {
 

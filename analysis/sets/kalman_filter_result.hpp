@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::sets {
 

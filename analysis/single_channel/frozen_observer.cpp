@@ -4,8 +4,8 @@
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/comparison.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/comparison.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 #include "trackers/single_channel/single_channel_rotating_frame.hpp"
 

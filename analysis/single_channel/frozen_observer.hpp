@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "analysis/rigor/interval.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::single_channel {

@@ -11,7 +11,7 @@
 #include "analysis/sets/harder_questions.hpp"
 #include "analysis/sets/lock_limit.hpp"
 #include "analysis/single_channel/phase_promises.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::single_channel {
 

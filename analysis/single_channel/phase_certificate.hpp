@@ -6,7 +6,7 @@
 
 #include "analysis/sets/kalman_filter_result.hpp"
 #include "analysis/single_channel/phase_sets.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::single_channel {
 

@@ -2,8 +2,8 @@
 
 #include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/single_channel/propositions.hpp"
-#include "analysis/theorems/comparison.hpp"
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/comparison.hpp"
+#include "analysis/statements/paper_findings.hpp"
 
 namespace veritrack::single_channel {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/single_channel/invariant_curve.hpp"
-#include "analysis/theorems/statement.hpp"
+#include "analysis/statements/statement.hpp"
 
 namespace veritrack::single_channel {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "analysis/rigor/verdict.hpp"
+#include "analysis/statements/trajectory.hpp"
 #include "analysis/theorems/theorem_2_9.hpp"
-#include "analysis/theorems/trajectory.hpp"
 
 namespace veritrack::theorems {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "analysis/theorems/error_bound.hpp"
 #include "analysis/theorems/theorem_2_9_constants.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "analysis/theorems/theorem_2_9_quantities.hpp"
 
 namespace veritrack::theorems {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "analysis/theorems/theorem_2_9_constants.hpp"
 
 namespace veritrack::theorems {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "analysis/search/maximize.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::theorems {
 

@@ -1,7 +1,7 @@
 // Can the conditions of Theorem 2.9 be satisfied for some choice of its free parameters?
 #pragma once
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "analysis/theorems/theorem_2_9_constants.hpp"
 
 namespace veritrack::theorems {

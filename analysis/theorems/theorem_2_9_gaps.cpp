@@ -3,7 +3,7 @@
 #include <iterator>
 #include <utility>
 
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/paper_findings.hpp"
 #include "analysis/theorems/theorem_2_9_gaps_parts.hpp"
 
 namespace veritrack::theorems {

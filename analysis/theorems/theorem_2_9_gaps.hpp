@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "analysis/theorems/statement.hpp"
+#include "analysis/statements/statement.hpp"
 #include "analysis/theorems/theorem_2_9_constants.hpp"
 
 namespace veritrack::theorems {

@@ -1,6 +1,6 @@
 #include "analysis/rigor/eigenvalues.hpp"
 #include "analysis/rigor/elementary.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "analysis/theorems/signal_model.hpp"
 #include "analysis/theorems/theorem_2_9_gaps_parts.hpp"
 

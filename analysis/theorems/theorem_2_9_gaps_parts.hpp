@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/theorems/statement.hpp"
+#include "analysis/statements/statement.hpp"
 #include "analysis/theorems/theorem_2_9_constants.hpp"
 
 namespace veritrack::theorems::gaps {

@@ -1,4 +1,4 @@
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "analysis/theorems/theorem_2_9_gaps_parts.hpp"
 
 namespace veritrack::theorems::gaps {

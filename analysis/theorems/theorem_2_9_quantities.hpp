@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "analysis/theorems/theorem_2_9_constants.hpp"
 
 namespace veritrack::theorems {

@@ -1,7 +1,7 @@
 #include "analysis/theorems/theorem_2_9_repaired.hpp"
 
-#include "analysis/theorems/comparison.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/comparison.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 #include "analysis/theorems/signal_model.hpp"
 #include "analysis/theorems/theorem_2_9_repaired_search.hpp"
 

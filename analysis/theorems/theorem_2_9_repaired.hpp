@@ -3,7 +3,7 @@
 // docs/repaired-theorem.md; its constants are those of error_recursion.hpp.
 #pragma once
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "analysis/theorems/tracker_input.hpp"
 
 namespace veritrack::theorems {

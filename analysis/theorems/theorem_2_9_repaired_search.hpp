@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "analysis/theorems/error_recursion.hpp"
 #include "analysis/theorems/theorem_2_9.hpp"
 

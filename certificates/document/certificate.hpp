@@ -14,7 +14,7 @@
 #include "analysis/rigor/verdict.hpp"
 #include "analysis/search/deadline.hpp"
 #include "analysis/sets/kalman_filter_result.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "certificates/design/design.hpp"
 #include "certificates/document/formal_proof.hpp"
 #include "certificates/sets/simulation.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::certificates::markdown {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/paper_findings.hpp"
 #include "certificates/design/design_format.hpp"
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/design/toml_source.hpp"

@@ -1,5 +1,4 @@
-// Texts that are part of the program: files of the columns for people, and the papers' designs, included by
-// CMake.
+// Texts that are part of the program: files of the columns for people, included by CMake.
 #pragma once
 
 #include <string_view>
@@ -16,7 +15,5 @@ struct EmbeddedText {
 [[nodiscard]] const std::vector<EmbeddedText>& explanation_texts();
 /// certificates/*/new.toml: a design file to begin with for each tracker.
 [[nodiscard]] const std::vector<EmbeddedText>& design_templates();
-/// The designs of designs/ that a paper prints, as they stand there.
-[[nodiscard]] const std::vector<EmbeddedText>& published_designs();
 
 }  // namespace veritrack::certificates

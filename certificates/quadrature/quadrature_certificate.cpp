@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/theorems/other_results.hpp"
+#include "analysis/theorems/other_results/other_results.hpp"
 #include "analysis/theorems/theorem_2_9.hpp"
 #include "analysis/theorems/theorem_2_9_feasibility.hpp"
 #include "analysis/theorems/theorem_2_9_gaps.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analysis/sets/start_covariance.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 
 namespace veritrack::certificates {

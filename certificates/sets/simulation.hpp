@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/theorems/trajectory.hpp"
+#include "analysis/statements/trajectory.hpp"
 #include "certificates/design/design.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "trackers/signals/test_signals.hpp"

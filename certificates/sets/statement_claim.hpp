@@ -1,7 +1,7 @@
 // Statements of the analysis as claims of a certificate.
 #pragma once
 
-#include "analysis/theorems/statement.hpp"
+#include "analysis/statements/statement.hpp"
 #include "certificates/document/certificate.hpp"
 
 namespace veritrack::certificates {

@@ -11,7 +11,7 @@
 #include "analysis/single_channel/invariant_curve.hpp"
 #include "analysis/single_channel/phase_certificate.hpp"
 #include "analysis/single_channel/propositions.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/contraction.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/rigor/decimal.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::certificates {
 

@@ -7,7 +7,7 @@
 #include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::theorems {
 

@@ -2,7 +2,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/dual.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "analysis/theorems/theorem_2_9_feasibility.hpp"
 #include "papers/claims/design_paper_claims.hpp"
 

@@ -4,9 +4,9 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
-#include "analysis/theorems/steady_loop.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "papers/claims/design_paper_claims.hpp"
+#include "papers/claims/steady_loop.hpp"
 
 namespace veritrack::theorems {
 

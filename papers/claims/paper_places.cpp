@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/paper_findings.hpp"
 
 namespace veritrack::theorems {
 

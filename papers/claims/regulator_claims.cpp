@@ -5,7 +5,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::theorems {
 

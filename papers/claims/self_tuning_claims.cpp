@@ -4,7 +4,7 @@
 #include <string>
 
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::theorems {
 

@@ -5,7 +5,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "papers/claims/signed_expression.hpp"
 #include "papers/claims/sine_filter_horizon.hpp"
 #include "trackers/zarchan/zarchan_ekf.hpp"

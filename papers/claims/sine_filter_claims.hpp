@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "analysis/theorems/statement.hpp"
+#include "analysis/statements/statement.hpp"
 
 namespace veritrack::theorems {
 

@@ -7,7 +7,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::theorems {
 

@@ -10,7 +10,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "papers/claims/pendulum_horseshoe.hpp"
 
 namespace veritrack::theorems {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::theorems {
 

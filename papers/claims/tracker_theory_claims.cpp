@@ -7,7 +7,7 @@
 #include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::theorems {
 
@@ -138,8 +138,8 @@ std::vector<Statement> picard_statements() {
 
 using Number = rigor::Dual<Interval, 2>;  // by q1, q2
 
-/// The measures of Table 3.1 (analysis/theorems/table_3_1.cpp) for q1 > q2, where C = Q has the eigenvalues
-/// a1 = q1, a2 = delta_1 = q2.
+/// The measures of Table 3.1 (analysis/theorems/other_results/table_3_1.cpp) for q1 > q2, where C = Q has the
+/// eigenvalues a1 = q1, a2 = delta_1 = q2.
 std::vector<Statement> footnote_statements() {
   const Interval any = Interval::from_bounds(1e-6, 1e6);
   const Number q1(any, {Interval(1.0), Interval(0.0)});

@@ -2,7 +2,7 @@
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "papers/claims/vibration_loop_claims.hpp"
 
 namespace veritrack::theorems {

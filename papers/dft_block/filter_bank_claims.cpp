@@ -3,7 +3,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "papers/dft_block/thesis_claims.hpp"
 
 namespace veritrack::dft_block {

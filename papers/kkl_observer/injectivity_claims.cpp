@@ -9,7 +9,7 @@
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::kkl_observer {
 

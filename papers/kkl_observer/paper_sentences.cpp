@@ -11,7 +11,7 @@
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::kkl_observer {
 

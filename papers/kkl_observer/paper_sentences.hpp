@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analysis/theorems/statement.hpp"
+#include "analysis/statements/statement.hpp"
 
 namespace veritrack::kkl_observer {
 

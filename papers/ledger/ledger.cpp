@@ -25,6 +25,7 @@
 #include "papers/dft_block/thesis_claims.hpp"
 #include "papers/kkl_observer/injectivity_claims.hpp"
 #include "papers/kkl_observer/paper_sentences.hpp"
+#include "papers/ledger/published_designs.hpp"
 #include "papers/regulator/limit_claims.hpp"
 #include "papers/single_channel/paper_sentences.hpp"
 #include "papers/single_channel/printed_recursion_claims.hpp"
@@ -159,7 +160,7 @@ bool Row::falls() const {
 
 std::vector<Row> collect() {
   Collection collection;
-  for (const certificates::EmbeddedText& design : certificates::published_designs()) {
+  for (const certificates::EmbeddedText& design : published_designs()) {
     collection.add(published_results_of(design));
   }
   const rigor::UpwardRounding upward;

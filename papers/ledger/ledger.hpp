@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/rigor/verdict.hpp"
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/paper_findings.hpp"
 #include "papers/claims/paper_places.hpp"
 
 namespace veritrack::reports::ledger {

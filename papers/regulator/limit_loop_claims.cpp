@@ -1,8 +1,8 @@
 #include <string>
 
-#include "analysis/regulator/printed_limits.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 #include "papers/regulator/limit_claims.hpp"
+#include "papers/regulator/printed_limits.hpp"
 
 namespace veritrack::regulator {
 

@@ -8,7 +8,7 @@
 #include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/single_channel/invariant_curve.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::single_channel {
 

@@ -5,7 +5,7 @@
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
-#include "analysis/theorems/comparison.hpp"
+#include "analysis/statements/comparison.hpp"
 
 namespace veritrack::single_channel {
 

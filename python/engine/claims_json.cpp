@@ -9,7 +9,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/verdict.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::python {
 

@@ -6,7 +6,7 @@
 #include "analysis/quadrature/contraction/certified_level.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
 

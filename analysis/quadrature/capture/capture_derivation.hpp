@@ -9,7 +9,7 @@
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/sets/contraction_question.hpp"
 #include "analysis/sets/kalman_filter_result.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::quadrature {
 

@@ -10,7 +10,7 @@
 #include "analysis/quadrature/capture/capture_region.hpp"
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::quadrature {
 

@@ -1,6 +1,6 @@
 #include "analysis/quadrature/falsifier/sampled_text.hpp"
 
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
 

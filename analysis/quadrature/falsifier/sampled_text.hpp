@@ -1,7 +1,7 @@
 // Names and words for the numbers that the falsifier finds, the same for every kind of set.
 #pragma once
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::quadrature {
 

@@ -6,7 +6,7 @@
 
 #include "analysis/quadrature/falsifier/falsifier_run.hpp"
 #include "analysis/sets/fixed_point_bias.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::quadrature {
 

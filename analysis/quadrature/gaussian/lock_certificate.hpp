@@ -9,7 +9,7 @@
 #include "analysis/quadrature/gaussian/lock_start.hpp"
 #include "analysis/quadrature/gaussian/lock_verification.hpp"
 #include "analysis/quadrature/rounding/step_rounding.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::quadrature {
 

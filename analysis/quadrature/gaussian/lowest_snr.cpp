@@ -8,7 +8,7 @@
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
 

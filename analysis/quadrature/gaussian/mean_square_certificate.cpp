@@ -8,7 +8,7 @@
 #include "analysis/quadrature/gaussian/mean_square_search.hpp"
 #include "analysis/quadrature/gaussian/mean_square_verification.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
 

@@ -13,7 +13,7 @@
 #include "analysis/sets/fixed_point_bias.hpp"
 #include "analysis/sets/harder_questions.hpp"
 #include "analysis/sets/lock_limit.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
 

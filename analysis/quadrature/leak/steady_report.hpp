@@ -6,7 +6,7 @@
 
 #include "analysis/quadrature/leak/steady_start.hpp"
 #include "analysis/sets/fixed_point_bias.hpp"
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 
 namespace veritrack::quadrature {
 

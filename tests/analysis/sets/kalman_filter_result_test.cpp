@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 
 namespace veritrack::sets {
 namespace {

@@ -1,7 +1,7 @@
 // Inputs for the results beside Theorem 2.9: the four designs of Table 3.2, with and without their leak.
 #pragma once
 
-#include "analysis/theorems/derivation.hpp"
+#include "analysis/statements/derivation.hpp"
 #include "analysis/theorems/tracker_input.hpp"
 #include "tests/analysis/theorems/theorem_2_9_designs.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/paper_findings.hpp"
 #include "papers/claims/paper_places.hpp"
 #include "tests/analysis/theorems/theorem_2_9_designs.hpp"
 #include "trackers/signals/random.hpp"

@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "analysis/theorems/other_results.hpp"
-#include "analysis/theorems/paper_findings.hpp"
+#include "analysis/statements/paper_findings.hpp"
+#include "analysis/theorems/other_results/other_results.hpp"
 #include "analysis/theorems/theorem_2_9_gaps.hpp"
 #include "tests/analysis/theorems/tracker_inputs.hpp"
 

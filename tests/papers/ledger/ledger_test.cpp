@@ -13,6 +13,7 @@
 #include "certificates/help/texts.hpp"
 #include "papers/ledger/ledger_report.hpp"
 #include "papers/ledger/ledger_summary.hpp"
+#include "papers/ledger/published_designs.hpp"
 #include "tests/support/golden.hpp"
 
 namespace {
@@ -150,7 +151,7 @@ TEST_CASE("every publication has rows, and every kind of tracker that a publicat
   }
   for (const certificates::TrackerKind* kind : certificates::tracker_kinds()) {
     const std::string key = "tracker = \"" + std::string(kind->name) + '"';
-    const auto& designs = certificates::published_designs();
+    const auto& designs = reports::ledger::published_designs();
     CAPTURE(key);
     CHECK((kind->published_results == nullptr ||
            std::any_of(designs.begin(), designs.end(), [&](const certificates::EmbeddedText& design) {

@@ -6,7 +6,7 @@
 
 #include "analysis/quadrature/gaussian/leaking_filter.hpp"
 #include "analysis/quadrature/gaussian/linear_filter.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/statements/derivation_builder.hpp"
 #include "tests/analysis/quadrature/gaussian/lock_question.hpp"
 #include "tests/analysis/quadrature/gaussian/textbook_filter.hpp"
 #include "tests/support/random.hpp"

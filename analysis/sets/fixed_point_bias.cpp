@@ -70,7 +70,7 @@ std::optional<State> verify_origin(const QuadraturePolarLoop& loop) {
 /// Follows the branch from 0 through `first` to `last` (both on the same side of 0, `last` the farther one)
 /// and keeps the cells beyond `first`. The frequency reached.
 double follow_side(const QuadraturePolarLoop& loop, const State& origin, double first, double last,
-                   const BranchSteps& steps, std::vector<QuadratureTube>& kept) {
+                   const BranchSteps& steps, std::vector<BranchCell>& kept) {
   State start = origin;
   if (first != 0.0) {
     const auto approach = follow_branch(loop, origin, 0.0, first, steps);
@@ -153,7 +153,7 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
     branch.reason = "no cell of the band could be verified";
     return branch;
   }
-  for (const QuadratureTube& cell : branch.cells) {
+  for (const BranchCell& cell : branch.cells) {
     if (!covariance_is_positive_definite(cell.box())) {
       branch.reason = "the steady-state covariance near " +
                       rigor::to_decimal(cell.parameter_center, 6, rigor::Direction::down) +
@@ -167,7 +167,7 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
   return branch;
 }
 
-SteadyStateError steady_state_error(const QuadratureTube& cell) {
+SteadyStateError steady_state_error(const BranchCell& cell) {
   const State state = cell.box();
   return {cell.parameter, state[2], state[1], state[0]};
 }
@@ -183,7 +183,7 @@ theorems::Quantity frequency_bias(const LockBranch& branch) {
   }
   quantity.not_applicable.reset();
   quantity.value = steady_state_error(branch.cells.front()).frequency_error;
-  for (const QuadratureTube& cell : branch.cells) {
+  for (const BranchCell& cell : branch.cells) {
     quantity.value = hull(quantity.value, steady_state_error(cell).frequency_error);
   }
   return quantity;

@@ -19,7 +19,7 @@
 namespace veritrack::sets {
 
 /// Fixed points of the quadrature tracker over a range of frequencies.
-using QuadratureTube = FixedPointFamily<QuadraturePolarLoop::kStates>;
+using BranchCell = FixedPointFamily<QuadraturePolarLoop::kStates>;
 
 /// The bias of the steady state, over a range of frequencies.
 struct SteadyStateError {
@@ -39,7 +39,7 @@ struct LockBranch {
   /// Frequencies over which the branch is verified, within [0, band] or [band, 0] or both; empty when there
   /// is none.
   rigor::Interval verified;
-  std::vector<QuadratureTube> cells;  ///< the part of it that covers the band
+  std::vector<BranchCell> cells;  ///< the part of it that covers the band
 };
 
 /// Verifies the lock branch over `band` (rad/sample), for every design in `design` and amplitude 1. Holds its
@@ -48,7 +48,7 @@ struct LockBranch {
                                             const rigor::Interval& band, const BranchSteps& steps = {});
 
 /// The steady state of one cell. Needs the upward mode.
-[[nodiscard]] SteadyStateError steady_state_error(const QuadratureTube& cell);
+[[nodiscard]] SteadyStateError steady_state_error(const BranchCell& cell);
 
 /// The quantity "bias_frequency": an enclosure of nu*(omega) for all omega of the band; not applicable, with
 /// the branch's reason, unless the branch is PROVED. Holds its own rounding mode.

@@ -157,8 +157,8 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
       add_capture_at_reduced_noise(certificate, set->set, report);
     }
   }
-  quadrature_particulars(certificate).followed_starts =
-      FollowedStarts{std::move(capture.region), basin_of_starts(question), std::move(capture.frequency_tube)};
+  quadrature_particulars(certificate).followed_starts = FollowedStarts{
+      std::move(capture.region), basin_of_starts(question), std::move(capture.frequency_errors)};
 }
 
 }  // namespace veritrack::certificates

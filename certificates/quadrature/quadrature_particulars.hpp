@@ -32,9 +32,9 @@ struct NamedSet {
 
 /// The assumed starts, followed because they exceed the certified set.
 struct FollowedStarts {
-  quadrature::Region region;           ///< with the assumed noise and slew
-  quadrature::SimulatedBasin basin;    ///< without, by simulation: proves nothing
-  std::vector<double> frequency_tube;  ///< see quadrature::StartCapture; empty unless PROVED
+  quadrature::Region region;             ///< with the assumed noise and slew
+  quadrature::SimulatedBasin basin;      ///< without, by simulation: proves nothing
+  std::vector<double> frequency_errors;  ///< see quadrature::StartCapture; empty unless PROVED
 };
 
 /// The numbers of one result for the design, side by side with the others.

@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "certificates/quadrature/frequency_error_bounds.hpp"
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
-#include "certificates/quadrature/tube.hpp"
 #include "reports/line_styles.hpp"
 #include "reports/quadrature/lock_figures.hpp"
 #include "reports/quadrature/region_map.hpp"
@@ -223,7 +223,7 @@ std::vector<Figure> draw_quadrature_figures(const Certificate& certificate) {
     return {};
   }
   std::vector<Figure> figures = {frequency_figure(certificate), error_figure(certificate)};
-  if (const auto tube = certificates::certified_tube(certificate)) {
+  if (const auto tube = certificates::frequency_error_bounds(certificate)) {
     figures.push_back(tube_figure(certificate, *tube));
   }
   for (Figure& figure : draw_lock_figures(certificate)) {

@@ -116,7 +116,7 @@ StartCapture capture_starts(const sets::ContractionQuestion& question, const Cer
   capture.result = capture_result(derivation.verdict, set, capture.region, tube);
   capture.result.conditions = derivation.conditions;
   derivation.quantities = capture_quantities(capture.result, capture.region);
-  capture.frequency_tube = std::move(tube.frequency_errors);
+  capture.frequency_errors = std::move(tube.frequency_errors);
   return capture;
 }
 

@@ -29,7 +29,7 @@ struct StartCapture {
   Region region;  ///< the cells of starts; none when nothing was followed
   /// Upper bounds on |frequency error| (rad/sample) after 0, 1, ... samples, for every assumed start and all
   /// noise and slew; the last one is valid for ever after. Empty unless PROVED.
-  std::vector<double> frequency_tube;
+  std::vector<double> frequency_errors;
 };
 
 /// Follows every start of the question, in cells, until it lies in `set`, which must have been certified

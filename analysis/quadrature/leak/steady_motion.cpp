@@ -32,8 +32,7 @@ std::optional<Interval> covering_share(const Symmetric<Interval>& bound, const S
 }  // namespace
 
 std::optional<SteadyMotion> steady_motion(const trackers::ToneModel<Interval>& design,
-                                          const std::vector<sets::QuadratureTube>& branch,
-                                          const SteadySet& set) {
+                                          const std::vector<sets::BranchCell>& branch, const SteadySet& set) {
   SteadyMotion motion;
   if (set.slew == 0.0) {
     return motion;

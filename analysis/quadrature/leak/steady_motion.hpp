@@ -18,7 +18,7 @@ struct SteadyMotion {
 /// The motion of the steady state by the slew of the set in one sample, uniform over the branch, since a step
 /// may pass from one cell to another; nothing when it could not be enclosed. Needs the upward mode.
 [[nodiscard]] std::optional<SteadyMotion> steady_motion(const trackers::ToneModel<rigor::Interval>& design,
-                                                        const std::vector<sets::QuadratureTube>& branch,
+                                                        const std::vector<sets::BranchCell>& branch,
                                                         const SteadySet& set);
 
 }  // namespace veritrack::quadrature

@@ -15,7 +15,7 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using Cells = std::vector<sets::QuadratureTube>;
+using Cells = std::vector<sets::BranchCell>;
 
 /// The share of level 1 into which samples of a proposed set may map it: what is left is for the proof.
 /// Shapes that leave less are for more noise and seldom proved.
@@ -35,7 +35,7 @@ class PieceSearch {
   /// `harder` is a cell at a higher frequency, for which nothing is to be proved: what is tolerated there is
   /// tolerated here, so that the search begins from there as well.
   PieceSearch(const sets::ContractionQuestion& question, Cells cells,
-              const std::optional<sets::QuadratureTube>& harder, double SteadyRequest::*which)
+              const std::optional<sets::BranchCell>& harder, double SteadyRequest::*which)
       : question_(question), cells_(std::move(cells)), which_(which) {
     request_.design = {midpoint(question.design.q1), midpoint(question.design.q2),
                        midpoint(question.design.r), midpoint(question.design.epsilon)};
@@ -96,7 +96,7 @@ class PieceSearch {
     const double high = part.back().parameter.upper();
     const auto& middle = part[part.size() / 2];
     request_.steady.clear();
-    const auto add = [&](const sets::QuadratureTube& cell, double frequency) {
+    const auto add = [&](const sets::BranchCell& cell, double frequency) {
       const rigor::IntervalVector<9> x = cell.at(Interval(frequency));
       request_.steady.push_back(
           {1.0 + midpoint(x[0]),
@@ -192,8 +192,7 @@ sets::LockBranch aligned_cells(const trackers::ToneModel<Interval>& design, cons
 }
 
 /// The cell beyond the hard end of the cells, if it has steady states.
-std::optional<sets::QuadratureTube> cell_beyond(const trackers::ToneModel<Interval>& design,
-                                                const Cells& cells) {
+std::optional<sets::BranchCell> cell_beyond(const trackers::ToneModel<Interval>& design, const Cells& cells) {
   const Interval first = cells.front().parameter;
   const Interval last = cells.back().parameter;
   const bool is_above = cells_end_hard(cells);

@@ -27,7 +27,7 @@ IntervalMatrix<3> covariance_of(const IntervalVector<sets::QuadraturePolarLoop::
 }
 
 /// As SteadyStart, over a part of the frequencies of a cell.
-SteadyStart start_of(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
+SteadyStart start_of(const sets::ContractionQuestion& question, const sets::BranchCell& cell,
                      const Interval& part, const SteadySet& set) {
   const IntervalVector<sets::QuadraturePolarLoop::kStates> steady = cell.at(part);
   const StartBox starts = assumed_starts(question);
@@ -51,7 +51,7 @@ SteadyStart start_of(const sets::ContractionQuestion& question, const sets::Quad
 }
 
 /// Follows the starts of a part of the frequencies of a cell, for at most so many samples.
-SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
+SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::BranchCell& cell,
                         const Interval& part, const SteadySet& set, int most_samples) {
   SteadyStart result = start_of(question, cell, part, set);
   if (result.reached || !(question.slew == Interval(0.0)) || !question.start_covariance) {
@@ -93,7 +93,7 @@ SteadyStart both(const SteadyStart& a, const SteadyStart& b) {
 }
 
 /// Narrower parts of the frequencies where the whole is too much to follow at once.
-SteadyStart follow_cell(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
+SteadyStart follow_cell(const sets::ContractionQuestion& question, const sets::BranchCell& cell,
                         const Interval& part, const SteadySet& set, int halvings) {
   // Narrower parts often come in soon where a wide one never does.
   constexpr int kFewSamples = 30;
@@ -155,7 +155,7 @@ SteadyStart joined(const std::vector<SteadyStart>& starts) {
 }
 
 std::vector<SteadyStart> follow_to_steady_set(const sets::ContractionQuestion& question,
-                                              const std::vector<sets::QuadratureTube>& cells,
+                                              const std::vector<sets::BranchCell>& cells,
                                               const SteadySet& set) {
   constexpr int kHalvings = 2;
   // In blocks, so that a failure is found early, and the same one whatever the number of threads.

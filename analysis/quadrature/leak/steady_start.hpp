@@ -32,7 +32,7 @@ struct SteadyStart {
 /// (capture.hpp). One for each cell, in their order, up to the first few that are not reached. Opens its own
 /// rounding scope; deterministic.
 [[nodiscard]] std::vector<SteadyStart> follow_to_steady_set(const sets::ContractionQuestion& question,
-                                                            const std::vector<sets::QuadratureTube>& cells,
+                                                            const std::vector<sets::BranchCell>& cells,
                                                             const SteadySet& set);
 
 /// A level up to 1 of a ladder at which the deviation of the covariance from P* lies between the bounds of

@@ -79,7 +79,7 @@ struct CellResult {
 };
 
 /// X* = center + (p - p0) slope + tight.
-SteadyState<SteadySecant> steady_secants(const sets::QuadratureTube& tube) {
+SteadyState<SteadySecant> steady_secants(const sets::BranchCell& tube) {
   const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> box = tube.box();
   const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> middle =
       tube.at(Interval(tube.parameter_center));
@@ -94,7 +94,7 @@ SteadyState<SteadySecant> steady_secants(const sets::QuadratureTube& tube) {
 }
 
 /// Goes on to so many steps, from level to level, as far as they are proved.
-void verify_cell(const Design& design, const sets::QuadratureTube& tube, const SteadySet& set,
+void verify_cell(const Design& design, const sets::BranchCell& tube, const SteadySet& set,
                  const SteadyMotion& motion, std::size_t steps, CellResult& result) {
   const rigor::UpwardRounding upward;
   SteadySettings settings;
@@ -163,12 +163,12 @@ std::vector<std::size_t> spread_first(std::size_t size) {
 
 }  // namespace
 
-SteadyState<Interval> steady_state(const sets::QuadratureTube& cell, const Interval& part) {
+SteadyState<Interval> steady_state(const sets::BranchCell& cell, const Interval& part) {
   const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> x = cell.at(part);
   return {Interval(1.0) + x[0], x[1], x[2], {x[3], x[4], x[5], x[6], x[7], x[8]}};
 }
 
-SteadyVerification verify_steady_set(const Design& design, const std::vector<sets::QuadratureTube>& branch,
+SteadyVerification verify_steady_set(const Design& design, const std::vector<sets::BranchCell>& branch,
                                      const SteadySet& proposal, const TrackedSignal& signal) {
   const rigor::UpwardRounding upward;
   SteadyVerification result;

@@ -33,12 +33,12 @@ struct SteadyVerification {
 /// parallel; the result does not depend on the number of threads. Opens its own UpwardRounding scope; never
 /// throws for invalid numbers.
 [[nodiscard]] SteadyVerification verify_steady_set(const trackers::ToneModel<rigor::Interval>& design,
-                                                   const std::vector<sets::QuadratureTube>& branch,
+                                                   const std::vector<sets::BranchCell>& branch,
                                                    const SteadySet& proposal,
                                                    const TrackedSignal& signal = {});
 
 /// The steady state over a part of a cell. Needs the upward mode.
-[[nodiscard]] SteadyState<rigor::Interval> steady_state(const sets::QuadratureTube& cell,
+[[nodiscard]] SteadyState<rigor::Interval> steady_state(const sets::BranchCell& cell,
                                                         const rigor::Interval& part);
 
 }  // namespace veritrack::quadrature

@@ -10,7 +10,7 @@ using rigor::Interval;
 using rigor::IntervalMatrix;
 
 SteadyRounding steady_rounding(const trackers::ToneModel<Interval>& design, const TrackedSignal& signal,
-                               const std::vector<sets::QuadratureTube>& branch, const SteadySet& set) {
+                               const std::vector<sets::BranchCell>& branch, const SteadySet& set) {
   // There are many cells, and little hangs on a tight bound.
   constexpr Pieces kPieces{1, 4, 2, 16};
   rigor::require_upward_rounding();
@@ -22,7 +22,7 @@ SteadyRounding steady_rounding(const trackers::ToneModel<Interval>& design, cons
   Interval least_z(1e300);
   Interval largest_zz(0.0);
   Interval largest_33(0.0);
-  for (const sets::QuadratureTube& tube : branch) {
+  for (const sets::BranchCell& tube : branch) {
     const auto x = tube.box();
     IntervalMatrix<3> steady;
     steady << x[3], x[4], x[5], x[4], x[6], x[7], x[5], x[7], x[8];

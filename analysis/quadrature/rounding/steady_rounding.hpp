@@ -20,7 +20,7 @@ struct SteadyRounding {
 /// of at most that of the set. Needs the upward mode.
 [[nodiscard]] SteadyRounding steady_rounding(const trackers::ToneModel<rigor::Interval>& design,
                                              const TrackedSignal& signal,
-                                             const std::vector<sets::QuadratureTube>& branch,
+                                             const std::vector<sets::BranchCell>& branch,
                                              const SteadySet& set);
 
 }  // namespace veritrack::quadrature

@@ -12,14 +12,14 @@
 #include <string>
 #include <utility>
 
-#include "tests/checker/theorems/tube_support.hpp"
+#include "tests/checker/theorems/error_bounds_support.hpp"
 
 using namespace veritrack::checker;
 using namespace veritrack::test::tube;
 
 namespace {
 
-bool is_verified(const WrittenTube& tube, const Design& design = the_design()) {
+bool is_verified(const WrittenBounds& tube, const Design& design = the_design()) {
   Objections objections;
   const bool verified = verified_error_bounds(read_json(R"({"evidence": [)" + evidence_of(tube, "a") + "]}"),
                                               "a", design, objections)
@@ -29,7 +29,7 @@ bool is_verified(const WrittenTube& tube, const Design& design = the_design()) {
 }
 
 bool is_verified_with(const std::string& name, const std::string& number) {
-  WrittenTube tube;
+  WrittenBounds tube;
   tube.numbers.at(name) = number;
   return is_verified(tube);
 }
@@ -67,7 +67,7 @@ TEST_CASE("numbers of a tube have their sign, though the theorem knows only thei
 }
 
 TEST_CASE("matrices of a tube are symmetric, definite, and kept") {
-  WrittenTube tube;
+  WrittenBounds tube;
   SUBCASE("an upper bound that is not symmetric") {
     tube.upper[2][0] = "0x1p-60";
   }
@@ -89,7 +89,7 @@ TEST_CASE("matrices of a tube are symmetric, definite, and kept") {
 }
 
 TEST_CASE("amplitudes all over the tube keep the covariance, not those near 1 alone") {
-  WrittenTube tube;
+  WrittenBounds tube;
   tube.numbers.at("frequency_error") = "0x1p-20";
   tube.numbers.at("one_minus_alpha") = "0x1p-20";
   tube.numbers.at("curvature") = "0x1p+3";
@@ -102,7 +102,7 @@ TEST_CASE("amplitudes all over the tube keep the covariance, not those near 1 al
 }
 
 TEST_CASE("an upper bound below zero is kept, and is none") {
-  WrittenTube tube;
+  WrittenBounds tube;
   tube.numbers.at("curvature") = "0x1p+3";
   CHECK(is_verified(tube));
   tube.upper[0][0] = "-0x1.6p-5";
@@ -126,7 +126,7 @@ Rows rows_of(const Eigen::Matrix3d& m) {
 
 /// A tube for what the filter's covariance is after `window` more updates, with an exact estimate: at most so
 /// many times the largest, and at least so many times the least.
-WrittenTube after_window(int window, double most, double least) {
+WrittenBounds after_window(int window, double most, double least) {
   const Eigen::Vector3d q(0.0023, 0.0023, 0.0023);
   const Eigen::Vector3d seen(1.0 / 0.05, 1.0 / 0.05, 0.0);
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
@@ -144,7 +144,7 @@ WrittenTube after_window(int window, double most, double least) {
     low = after(low);
     high = after(high);
   }
-  WrittenTube tube;
+  WrittenBounds tube;
   tube.upper = rows_of(most * high);
   tube.information = rows_of((least * low).inverse());
   tube.numbers = {{"window", window == 1 ? "0x1p+0" : "0x1p+1"},
@@ -171,7 +171,7 @@ TEST_CASE("after a window the covariance is between bounds that all its values k
 }
 
 TEST_CASE("estimates that are off need more room, above and below") {
-  WrittenTube tube;
+  WrittenBounds tube;
   SUBCASE("above, in the first step") {
     tube = after_window(1, 1.0005, 0.5);
     CHECK(is_verified(tube));

@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "tests/checker/theorems/tube_support.hpp"
+#include "tests/checker/theorems/error_bounds_support.hpp"
 
 using namespace veritrack::checker;
 using namespace veritrack::test::tube;
@@ -16,7 +16,7 @@ namespace {
 /// Is this condition accepted as proved, of starts with errors of this size and P(0|0) so many times the
 /// upper bound?
 bool accepts(const std::string& id, double error, double multiple) {
-  const WrittenTube tube;
+  const WrittenBounds tube;
   Design design = the_design();
   design.noise = design.slew = zero;
   design.largest_frequency = one;

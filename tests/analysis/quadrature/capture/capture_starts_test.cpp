@@ -52,7 +52,7 @@ TEST_CASE("starts beyond the certified set are captured, and the tracker keeps t
   REQUIRE(capture.derivation.verdict == Verdict::proved);
   CHECK(value(capture, "cells") == value(capture, "cells_captured"));
   CHECK(value(capture, "settling_samples") >= value(capture, "capture_samples"));
-  const std::vector<double>& tube = capture.frequency_tube;
+  const std::vector<double>& tube = capture.frequency_errors;
   REQUIRE(!tube.empty());
   CHECK(value(capture, "frequency_error_bound") == *std::max_element(tube.begin(), tube.end()));
   CHECK(tube.front() >= 0.5);
@@ -79,7 +79,7 @@ TEST_CASE("starts beyond the certified set are captured, and the tracker keeps t
 TEST_CASE("the result does not depend on being asked again") {
   const StartCapture one = quadrature::capture_starts(far_starts(), certified_set(), "capture", 500);
   const StartCapture two = quadrature::capture_starts(far_starts(), certified_set(), "capture", 500);
-  CHECK(one.frequency_tube == two.frequency_tube);
+  CHECK(one.frequency_errors == two.frequency_errors);
   CHECK(one.region.cells.size() == two.region.cells.size());
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("starts that are too far are not captured, and the first cells that fa
   CHECK(capture.derivation.conditions[1].reason.find(" cells of assumed starts could not be followed") !=
         std::string::npos);
   CHECK(capture.derivation.notes.size() == 3);
-  CHECK(capture.frequency_tube.empty());
+  CHECK(capture.frequency_errors.empty());
   for (const char* name : {"frequency_error_bound", "settling_samples", "capture_samples"}) {
     CHECK(theorems::find_quantity(capture.derivation, name).not_applicable.has_value());
   }
@@ -122,7 +122,7 @@ TEST_CASE("a set for less noise than is assumed, or a leak, proves nothing") {
     const StartCapture capture = quadrature::capture_starts(question, certified_set(), "capture", 500);
     CHECK(capture.derivation.verdict == Verdict::undecided);
     CHECK(capture.region.cells.empty());
-    CHECK(capture.frequency_tube.empty());
+    CHECK(capture.frequency_errors.empty());
   }
 }
 

@@ -11,7 +11,7 @@ using namespace veritrack;
 using namespace veritrack::quadrature;
 using rigor::Interval;
 
-Eigen::Matrix3d covariance_of(const sets::QuadratureTube& tube) {
+Eigen::Matrix3d covariance_of(const sets::BranchCell& tube) {
   const auto& x = tube.center;
   Eigen::Matrix3d p;
   p << x[3], x[4], x[5], x[4], x[6], x[7], x[5], x[7], x[8];
@@ -33,8 +33,8 @@ TEST_CASE("the motion with the slew covers the way between steady states, whiche
                                              Interval(0.01)};
   const auto branch = sets::verify_lock_branch(design, Interval::from_bounds(0.5, 0.55), {.largest = 0.02});
   REQUIRE(branch.verdict == rigor::Verdict::proved);
-  const sets::QuadratureTube& first = branch.cells.front();
-  const sets::QuadratureTube& last = branch.cells.back();
+  const sets::BranchCell& first = branch.cells.front();
+  const sets::BranchCell& last = branch.cells.back();
   const double way = last.parameter_center - first.parameter_center;
   REQUIRE(way > 0.0);
   const Eigen::Matrix3d slope = (covariance_of(last) - covariance_of(first)) / way;

@@ -15,7 +15,7 @@ using checker::Design;
 using Rows = std::array<std::array<std::string, 3>, 3>;
 
 /// For La Scala's Figure 3.5 without its leak.
-struct WrittenTube {
+struct WrittenBounds {
   std::map<std::string, std::string> numbers{{"window", "0x0p+0"},
                                              {"plane_error", "0x1.46e2d35c182f2p-8"},
                                              {"frequency_error", "0x1.6a2ca93ff07adp-9"},
@@ -50,7 +50,7 @@ inline Design the_design() {
 }
 
 /// An item of evidence of this name.
-inline std::string evidence_of(const WrittenTube& tube, const std::string& name) {
+inline std::string evidence_of(const WrittenBounds& tube, const std::string& name) {
   std::string text = R"({"name": ")" + name + R"(", "matrices": {"covariance_upper": )" +
                      json_of(tube.upper) + R"(, "information_upper": )" + json_of(tube.information) +
                      R"(}, "numbers": {"of": "0x0p+0")";

@@ -1,4 +1,4 @@
-#include "certificates/quadrature/tube.hpp"
+#include "certificates/quadrature/frequency_error_bounds.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -97,7 +97,7 @@ std::vector<double> bound_from(quadrature::CertifiedLevel level) {
 
 }  // namespace
 
-std::optional<FrequencyErrorBounds> certified_tube(const Certificate& certificate) {
+std::optional<FrequencyErrorBounds> frequency_error_bounds(const Certificate& certificate) {
   const auto named = std::find_if(quadrature_particulars(certificate).certified_sets.begin(),
                                   quadrature_particulars(certificate).certified_sets.end(),
                                   [](const NamedSet& one) { return one.purpose == "start-error"; });
@@ -121,7 +121,7 @@ std::optional<FrequencyErrorBounds> certified_tube(const Certificate& certificat
       if (!problem) {
         return std::nullopt;
       }
-      tube.bound = quadrature_particulars(certificate).followed_starts->frequency_tube;
+      tube.bound = quadrature_particulars(certificate).followed_starts->frequency_errors;
       tube.bound.resize(std::min(tube.bound.size(), kLongest));
       starts = corners(quadrature::assumed_starts(question), rigor::midpoint(problem->initial_covariance));
     } else {

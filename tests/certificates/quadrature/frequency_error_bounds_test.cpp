@@ -1,4 +1,4 @@
-#include "certificates/quadrature/tube.hpp"
+#include "certificates/quadrature/frequency_error_bounds.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ void check_runs(const certificates::FrequencyErrorBounds& tube) {
 }
 
 TEST_CASE("runs from the rim of the certified set stay below its bound") {
-  const auto tube = certificates::certified_tube(test::certificate());
+  const auto tube = certificates::frequency_error_bounds(test::certificate());
   REQUIRE(tube.has_value());
   CHECK_FALSE(tube->from_assumed_starts);
   CHECK(tube->bound_of_assumed_starts.size() == tube->bound.size());
@@ -34,7 +34,7 @@ TEST_CASE("runs from the rim of the certified set stay below its bound") {
 }
 
 TEST_CASE("runs from the corners of the assumed starts stay below the bound of those that were captured") {
-  const auto tube = certificates::certified_tube(
+  const auto tube = certificates::frequency_error_bounds(
       test::certificate({{"initial_frequency_error = 0.005", "initial_frequency_error = 0.4"},
                          {"initial_phase_error = 0.005", "initial_phase_error = 0.4"},
                          {"slew = 0.0", "slew = 0.0001"}}));
@@ -46,9 +46,10 @@ TEST_CASE("runs from the corners of the assumed starts stay below the bound of t
 }
 
 TEST_CASE("without a proof there is no tube") {
-  CHECK_FALSE(certificates::certified_tube(test::certificate({{"q1 = 0.0023", "q1 = 0"}})).has_value());
   CHECK_FALSE(
-      certificates::certified_tube(test::certificate({{"noise = 0.001", "noise = 0.5"}})).has_value());
+      certificates::frequency_error_bounds(test::certificate({{"q1 = 0.0023", "q1 = 0"}})).has_value());
+  CHECK_FALSE(certificates::frequency_error_bounds(test::certificate({{"noise = 0.001", "noise = 0.5"}}))
+                  .has_value());
 }
 
 }  // namespace

@@ -22,6 +22,6 @@ struct FrequencyErrorBounds {
 };
 
 /// Empty when no set is certified or no bound is proved. Opens its own rounding scopes.
-[[nodiscard]] std::optional<FrequencyErrorBounds> certified_tube(const Certificate& certificate);
+[[nodiscard]] std::optional<FrequencyErrorBounds> frequency_error_bounds(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -18,7 +18,7 @@ theorems::Condition condition(const char* id, const char* reason = "") {
   return one;
 }
 
-PhaseCertificate found(StartFinding::Kind kind) {
+PhaseCertificate certificate_with(StartFinding::Kind kind) {
   PhaseCertificate certificate;
   certificate.derivation.conditions = {condition("leak", "no leak."), condition("start-in-set")};
   certificate.derivation.conditions.back().rhs = rigor::Interval(0.5);
@@ -30,7 +30,7 @@ PhaseCertificate found(StartFinding::Kind kind) {
 
 TEST_CASE("the reason why starts are in the set of a contraction over phases, or what would help") {
   const auto reason = [](StartFinding::Kind kind) {
-    PhaseCertificate certificate = found(kind);
+    PhaseCertificate certificate = certificate_with(kind);
     add_words(certificate);
     const theorems::Condition& start = certificate.derivation.conditions.back();
     CHECK(start.statement == "e(0)' P(0)^{-1} e(0) \\le R_0^2");
@@ -48,7 +48,7 @@ TEST_CASE("the reason why starts are in the set of a contraction over phases, or
 }
 
 TEST_CASE("without a set of a contraction over phases nothing is said of starts") {
-  PhaseCertificate certificate = found(StartFinding::Kind::outside);
+  PhaseCertificate certificate = certificate_with(StartFinding::Kind::outside);
   certificate.start.reset();
   add_words(certificate);
   CHECK(certificate.derivation.conditions.back().reason.empty());

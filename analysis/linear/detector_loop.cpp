@@ -1,11 +1,15 @@
 #include "analysis/linear/detector_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "analysis/linear/stability.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/lyapunov.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::linear {
 
@@ -85,15 +89,29 @@ rigor::DynamicIntervalMatrix square_of(const Row& column) {
   return q;
 }
 
+/// A range of factors.
+struct Factors {
+  double low, high;
+  int halvings_left;
+};
+
 /// No eigenvalue reaches the unit circle between two factors: else two would have the product 1.
-bool none_crosses(const DetectorLoop& loop, double low, double high, int depth) {
+bool none_crosses(const DetectorLoop& loop, double low, double high) {
   constexpr int kDeepest = 14;
-  if (solution(with_factor(loop, Interval::from_bounds(low, high)), square_of(loop.effect))) {
-    return true;
-  }
-  const double middle = 0.5 * low + 0.5 * high;
-  return depth < kDeepest && low < middle && middle < high && none_crosses(loop, low, middle, depth + 1) &&
-         none_crosses(loop, middle, high, depth + 1);
+  constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+  const auto look = [&](const Factors& part) -> search::CellDecision<Factors> {
+    const Interval factors = Interval::from_bounds(part.low, part.high);
+    if (solution(with_factor(loop, factors), square_of(loop.effect))) {
+      return {true};
+    }
+    const double middle = 0.5 * part.low + 0.5 * part.high;
+    if (part.halvings_left == 0 || !(part.low < middle && middle < part.high)) {
+      return {};
+    }
+    const int left = part.halvings_left - 1;
+    return {false, std::array{Factors{part.low, middle, left}, Factors{middle, part.high, left}}};
+  };
+  return search::cover_by_bisection(Factors{low, high, kDeepest}, kUnlimited, look).is_proved;
 }
 
 }  // namespace
@@ -123,7 +141,7 @@ Verdict is_stable_up_to(const DetectorLoop& loop, const Interval& factor) {
     return Verdict::refuted;
   }
   const bool is_proved = as_it_is == Verdict::proved && rigor::is_finite(factor) &&
-                         none_crosses(in_own_units(loop), 1.0, factor.upper(), 0);
+                         none_crosses(in_own_units(loop), 1.0, factor.upper());
   return is_proved ? Verdict::proved : Verdict::undecided;
 }
 

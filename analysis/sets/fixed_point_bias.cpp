@@ -92,13 +92,12 @@ double follow_side(const QuadraturePolarLoop& loop, const State& origin, double 
   return branch.reached;
 }
 
-std::string explain_end(double reached, const char* side) {
+void end_at(double reached, const char* side, LockBranch& branch) {
   const rigor::Direction toward_zero = reached > 0.0 ? rigor::Direction::down : rigor::Direction::up;
-  return std::string("the lock branch, continued from frequency 0, is verified only up to ") +
-         rigor::to_decimal(reached, 6, toward_zero) + " rad/sample, and the band's " + side +
-         " end lies beyond: the steady state may cease to exist there; restrict [assume] frequency to at " +
-         (reached > 0.0 ? "most " : "least ") + rigor::to_decimal(reached, 4, toward_zero) +
-         " rad/sample, or take a smaller leak epsilon or a larger q2, which extend the verified branch";
+  branch.ends_at = reached;
+  branch.reason = std::string("the lock branch, continued from frequency 0, is verified only up to ") +
+                  rigor::to_decimal(reached, 6, toward_zero) + " rad/sample, and the band's " + side +
+                  " end lies beyond: the steady state may cease to exist there";
 }
 
 }  // namespace
@@ -142,11 +141,11 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
   }
   branch.verified = Interval::from_bounds(reached_low, reached_high);
   if (reached_low > low) {
-    branch.reason = explain_end(reached_low, "lower");
+    end_at(reached_low, "lower", branch);
     return branch;
   }
   if (reached_high < high) {
-    branch.reason = explain_end(reached_high, "upper");
+    end_at(reached_high, "upper", branch);
     return branch;
   }
   if (branch.cells.empty()) {

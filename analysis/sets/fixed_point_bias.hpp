@@ -35,6 +35,8 @@ struct LockBranch {
   /// positive definite. UNDECIDED otherwise; the reason says where it stops.
   rigor::Verdict verdict = rigor::Verdict::undecided;
   std::string reason;
+  /// rad/sample; the verified branch ends there, inside the band. Set only where that is why it is undecided.
+  std::optional<double> ends_at;
   rigor::Interval band;  ///< as asked for, rad/sample
   /// Frequencies over which the branch is verified, within [0, band] or [band, 0] or both; empty when there
   /// is none.

@@ -97,21 +97,30 @@ const Condition* StartResult::first_condition(Verdict wanted) const {
   return found == conditions.end() ? nullptr : &*found;
 }
 
-std::vector<Quantity> quantities_of(const KalmanFilterResult& result) {
-  const StartResult& starts = result.starts;
-  std::vector<Quantity> all{result.contraction_rate,       result.radius,
-                            result.frequency_error_radius, result.phase_error_radius,
-                            result.amplitude_error_radius, starts.ultimate_frequency_error,
-                            starts.frequency_error_bound};
+std::vector<Quantity*> quantities_in(KalmanFilterResult& result) {
+  StartResult& starts = result.starts;
+  std::vector<Quantity*> all{&result.contraction_rate,       &result.radius,
+                             &result.frequency_error_radius, &result.phase_error_radius,
+                             &result.amplitude_error_radius, &starts.ultimate_frequency_error,
+                             &starts.frequency_error_bound};
   if (starts.capture_samples) {
-    all.push_back(*starts.capture_samples);
+    all.push_back(&*starts.capture_samples);
   }
-  all.push_back(starts.settling_samples);
-  all.push_back(starts.settled_frequency_error);
-  all.push_back(result.largest_noise);
-  all.push_back(result.largest_slew);
+  all.push_back(&starts.settling_samples);
+  all.push_back(&starts.settled_frequency_error);
+  all.push_back(&result.largest_noise);
+  all.push_back(&result.largest_slew);
   if (result.bias_frequency) {
-    all.push_back(*result.bias_frequency);
+    all.push_back(&*result.bias_frequency);
+  }
+  return all;
+}
+
+std::vector<Quantity> quantities_of(const KalmanFilterResult& result) {
+  KalmanFilterResult copy = result;
+  std::vector<Quantity> all;
+  for (Quantity* quantity : quantities_in(copy)) {
+    all.push_back(std::move(*quantity));
   }
   return all;
 }

@@ -74,6 +74,8 @@ struct KalmanFilterResult {
 
 /// The quantities of a result in the order in which certificates have them.
 [[nodiscard]] std::vector<theorems::Quantity> quantities_of(const KalmanFilterResult& result);
+/// The same ones, to be changed.
+[[nodiscard]] std::vector<theorems::Quantity*> quantities_in(KalmanFilterResult& result);
 
 /// Completes the derivation "contraction", which has its conditions: the quantities of the result come first,
 /// before what it has of sampled ones. The result has conditions and verdict afterwards.

@@ -84,10 +84,19 @@ Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& c
   return condition;
 }
 
-Condition start_in_set(const PhaseQuestion& question, const PhaseCertificate& certificate,
-                       double level_seen) {
+StartFinding find_start(const PhaseQuestion& question, const PhaseCertificate& certificate,
+                        double level_seen) {
+  using Kind = StartFinding::Kind;
+  return {certificate.bound_set               ? Kind::in_set
+          : question.tracker.start_covariance ? Kind::covariance_is_given
+                                              : Kind::outside,
+          level_seen};
+}
+
+/// Without words, which are up to those who know the design file.
+Condition start_in_set(const PhaseCertificate& certificate) {
   Condition condition{"start-in-set",
-                      "e(0)' P(0)^{-1} e(0) \\le R_0^2",
+                      {},
                       certificate.bound_set ? Verdict::proved : Verdict::undecided,
                       {},
                       Interval(certificate.set->start_level),
@@ -96,14 +105,6 @@ Condition start_in_set(const PhaseQuestion& question, const PhaseCertificate& ce
   if (certificate.bound_set) {
     condition.lhs = Interval(*certificate.bound_set->assumed_level);
     condition.rhs = Interval(certificate.bound_set->start_level);
-    condition.reason = "every assumed start lies in a certified set.";
-  } else if (question.tracker.start_covariance) {
-    condition.reason = "a given P(0) is not covered; omit initial_covariance to start with the steady state.";
-  } else {
-    condition.reason = "the assumed starts have level about " +
-                       rigor::to_decimal(level_seen, 3, Direction::up) +
-                       "; the certified set of starts has level " + rigor::lower_decimal(condition.rhs) +
-                       ". Smaller start errors or a narrower [assume] frequency would help.";
   }
   return condition;
 }
@@ -332,7 +333,8 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
   }
   derivation.conditions.push_back(invariant_set(question, certificate));
   if (certificate.set) {
-    derivation.conditions.push_back(start_in_set(question, certificate, level_seen));
+    certificate.start = find_start(question, certificate, level_seen);
+    derivation.conditions.push_back(start_in_set(certificate));
   }
   certificate.result = result_of(question, certificate);
   sets::conclude(derivation, certificate.result);

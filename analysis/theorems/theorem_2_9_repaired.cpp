@@ -170,10 +170,7 @@ Derivation derive_repaired_theorem(const TrackerInput& question) {
       "limits assume an exact start. initial_frequency_error_bound assumes exact phase and amplitude.",
       "Start and noise bounds are for w = 0, a frequency that leaks as in (3.1). With a leak, a constant "
       "frequency omega is modelled as process noise epsilon omega, which must not exceed "
-      "process_noise_bound.",
-      "The start covariance is the filter's steady state along exact estimates unless the design file gives "
-      "a "
-      "matrix."};
+      "process_noise_bound."};
   return derivation;
 }
 

@@ -1,7 +1,5 @@
 #include "certificates/model/model_sets.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <any>
 #include <complex>
@@ -9,12 +7,11 @@
 #include <span>
 #include <utility>
 
-#include "analysis/model/question/gain_sets.hpp"
-#include "analysis/model/question/phase_sets.hpp"
+#include "analysis/model/question/proof_choice.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/rigor/small_matrix.hpp"
 #include "certificates/model/operation_words.hpp"
+#include "certificates/model/proof_words.hpp"
 
 namespace veritrack::certificates {
 
@@ -80,12 +77,7 @@ bool bounds_covariance(const Model& model, const ModelTables& tables) {
   const bool names_covariance =
       std::any_of(assume.start_within.begin(), assume.start_within.end(),
                   [](const NamedText& entry) { return entry.name.text.starts_with("P."); });
-  // With an F other than the derivative no tube was found for Zarchan's third filter in this way, but one was
-  // found in the other way; with more states than these the other way is out of reach.
-  constexpr int kMostWithCovariance = 3;
-  const bool prefers_states =
-      model.filter && model.filter->has_given_jacobian && model.filter->states <= kMostWithCovariance;
-  return model.filter && !names_covariance && !prefers_states;
+  return model.filter && model::covariance_is_bounded(*model.filter, names_covariance);
 }
 
 model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume) {
@@ -138,15 +130,6 @@ const ModelSets& model_sets(const Certificate& certificate) {
 
 namespace {
 
-/// The reason why no sets are searched for; or empty.
-std::string objection_to(const Model& model, const model::SearchedBand& band, bool bounds_covariance) {
-  constexpr std::size_t kMostStatesInTubes = 16;
-  if (!bounds_covariance && model.states.size() > kMostStatesInTubes) {
-    return fmt::format("{} states are too many: at most {}", model.states.size(), kMostStatesInTubes);
-  }
-  return band.is_empty() ? "the assumed frequencies are no band of some width from 0 to pi rad/sample" : "";
-}
-
 model::SetQuestion question_of(const Model& model, const ModelTables& tables, bool by_structure) {
   const ModelAssumptions& assume = tables.assume;
   model::SetQuestion question{.tone = proposed_tone(model, assume), .tracker = proved_model(model, assume)};
@@ -195,41 +178,6 @@ class SharedProgress {
   double done_ = 0.0;
 };
 
-double tolerated_noise(const std::optional<model::ProvedSet>& set) {
-  return set && set->is_proved() ? set->tubes.noise : 0.0;
-}
-double proved_reach(const model::ProvedSet& set) {
-  return set.is_proved() ? set.reach : 0.0;
-}
-
-/// Adds what gains on the average prove of noise and starts, where that is more than tubes have.
-void add_averages(model::ProvedSets by_gains, ModelSets& sets) {
-  if (!(tolerated_noise(by_gains.noise) > tolerated_noise(sets.noise)) &&
-      !(proved_reach(by_gains.starts) > proved_reach(sets.starts))) {
-    return;
-  }
-  by_gains.starts.proof = model::ProvedSet::Proof::averages;
-  if (by_gains.noise) {
-    by_gains.noise->proof = model::ProvedSet::Proof::averages;
-  }
-  sets.averages = {*std::move(by_gains.gains), std::move(by_gains.starts), std::move(by_gains.noise)};
-}
-
-/// Adds the proof by gains that depend on the phase, if something is better with it.
-void add_phases(const model::SetQuestion& question, ModelSets& sets) {
-  model::KnownLimits known{tolerated_noise(sets.noise), proved_reach(sets.starts)};
-  if (sets.averages) {
-    known = {std::max(known.noise, tolerated_noise(sets.averages->noise)),
-             std::max(known.reach, proved_reach(sets.averages->starts))};
-  }
-  sets.phases = model::prove_by_phase_gains(question, known,
-                                            question.allows_phase_gains ? &sets.no_phase_gains : nullptr);
-  if (sets.phases && !sets.best().is_without_tubes() &&
-      !(tolerated_noise(sets.phases->noise) > known.noise)) {
-    sets.phases.reset();
-  }
-}
-
 }  // namespace
 
 ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::Deadline& deadline,
@@ -246,28 +194,18 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   question.reach_of_assumed = require.frequency_error_radius_at_least.has_value();
   question.deadline = deadline;
   ModelSets sets;
-  if (model.states.size() > std::size_t{rigor::kMostSmallRows} && question.tone.filter == nullptr) {
-    sets.objection =
-        fmt::format("{} states are too many: at most {}", model.states.size(), rigor::kMostSmallRows);
-    return sets;
-  }
   sets.bounds_covariance = question.tone.filter != nullptr;
-  std::string no_gains;
-  std::optional<model::ProvedSets> by_gains = model::prove_by_gains(question, &no_gains);
-  if (by_gains && (model.samples.size() > 1 || model::is_near_linear(*by_gains))) {
-    static_cast<model::ProvedSets&>(sets) = *std::move(by_gains);
+  model::FirstProof first = model::prove_by_gains_first(question);
+  if (first.objection) {
+    sets.objection = objection_words(*first.objection, first.no_gains);
     return sets;
   }
-  sets.objection = objection_to(model, question.band, sets.bounds_covariance);
-  if (!sets.objection.empty() && question.whole_band.lower() < 0.0) {
-    sets.objection =
-        "frequencies below 0 are certified by gains only (docs/model.md), and this loop is not: " + no_gains;
-  }
-  if (!sets.objection.empty()) {
+  if (first.is_enough) {
+    static_cast<model::ProvedSets&>(sets) = *std::move(first.by_gains);
     return sets;
   }
-  if (question.allows_gains && !by_gains && model.samples.size() > 1) {
-    sets.no_gains = no_gains;
+  if (question.allows_gains && first.no_gains && model.samples.size() > 1) {
+    sets.no_gains = gains_words(*first.no_gains);
   }
   const bool follows_start =
       !assume.start_exactly.empty() && (is_everything || tables.require.captured_within);
@@ -282,16 +220,15 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
       sets.lowest_snr = certify_model_lock(search, true, shared.next(1.0));
     }
   }
-  static_cast<model::ProvedSets&>(sets) = prove_sets(question, shared.next(tasks));
-  if (by_gains && by_gains->deciding().is_proved() && !sets.deciding().is_proved()) {
-    static_cast<model::ProvedSets&>(sets) = *std::move(by_gains);
+  model::ChosenProof chosen = model::choose_proof(question, std::move(first.by_gains), shared.next(tasks));
+  static_cast<model::ProvedSets&>(sets) = std::move(chosen.sets);
+  if (chosen.is_by_gains) {
     sets.bounds_covariance = false;
     return sets;
   }
-  if (by_gains && by_gains->gains && by_gains->gains->gains) {
-    add_averages(*std::move(by_gains), sets);
+  if (chosen.no_phase_gains) {
+    sets.no_phase_gains = phase_gains_words(*chosen.no_phase_gains);
   }
-  add_phases(question, sets);
   if (follows_start) {
     const model::ProvedSet& deciding = sets.deciding();
     sets.capture =

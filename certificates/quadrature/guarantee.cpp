@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
-#include "analysis/quadrature/leak/steady_certificate.hpp"
+#include "certificates/quadrature/leak_words.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/start_covariance.hpp"
@@ -83,6 +83,7 @@ void add_contraction(Certificate& certificate) {
     question.with_limits = certificate.extent == Extent::everything || requires_limits;
     quadrature::LeakCertificate found = quadrature::certify_with_leak(
         {question, rigor::hull(assume.frequency[0].value, assume.frequency[1].value)});
+    add_words(found);
     certificate.derivations.push_back(std::move(found.derivation));
     certificate.contraction = std::move(found.result);
   }

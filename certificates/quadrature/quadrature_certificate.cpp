@@ -108,6 +108,9 @@ void quadrature_published_results(Certificate& certificate) {
     certificate.claims.push_back(applicability_claim(theorem.derivation));
   }
   certificate.derivations.push_back(theorems::derive_repaired_theorem(tracker_input(tables, input)));
+  certificate.derivations.back().notes.emplace_back(
+      "The start covariance is the filter's steady state along exact estimates unless the design file gives "
+      "a matrix.");
   certificate.claims.push_back(applicability_claim(certificate.derivations.back()));
   for (const theorems::Statement& statement : theorems::theorem_2_9_gaps(input)) {
     certificate.claims.push_back(to_claim(statement));

@@ -17,6 +17,7 @@
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/sets/statement_claim.hpp"
+#include "certificates/single_channel/phase_words.hpp"
 #include "certificates/single_channel/recursion_part.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/tone_model.hpp"
@@ -263,6 +264,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& pro
         certificate.extent == Extent::quick ? sets::SearchEffort::quick : sets::SearchEffort::sufficient;
   }
   single_channel::PhaseCertificate contraction = single_channel::certify_over_phases(question);
+  add_words(contraction);
   certificate.derivations.push_back(std::move(contraction.derivation));
   certificate.contraction = std::move(contraction.result);
   const std::string covariance = start_covariance_words(contraction.bound_set);

@@ -2,10 +2,13 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::theorems {
 
@@ -130,12 +133,11 @@ class Crossing {
 
   [[nodiscard]] bool holds() const {
     const Interval height = symmetric_interval(parse_decimal(part_.height));
-    return is_left(Interval(part_.left), height, kDepth) && is_right(Interval(part_.right), height, kDepth) &&
-           is_inside_or_beside(Interval::from_bounds(part_.left, part_.right), height, kDepth);
+    return is_left(Interval(part_.left), height) && is_right(Interval(part_.right), height) &&
+           is_inside_or_beside(Interval::from_bounds(part_.left, part_.right), height);
   }
 
  private:
-  static constexpr int kDepth = 14;
   static constexpr double kHalfWidth = 0.25;
 
   [[nodiscard]] Coordinates image(const Interval& a, const Interval& c) const {
@@ -150,36 +152,50 @@ class Crossing {
             (frame.u_angle * rate - frame.u_rate * angle) / determinant};
   }
 
-  /// Is it so of the image, or of those of both halves?
-  template <typename Holds>
-  [[nodiscard]] bool holds_for(const Interval& a, const Interval& c, int depth, const Holds& holds) const {
-    if (holds(image(a, c))) {
-      return true;
-    }
-    if (depth == 0) {
-      return false;
-    }
+  struct Part {
+    Interval a, c;
+    int halvings_left;
+  };
+
+  static std::array<Part, 2> halves_of(const Part& part) {
     // The image is stretched by a, some twenty times as much as by c.
-    const bool by_a = 20.0 * width(a) > width(c);
-    const double middle = midpoint(by_a ? a : c);
-    const auto lower = [&](const Interval& x) { return Interval::from_bounds(x.lower(), middle); };
-    const auto upper = [&](const Interval& x) { return Interval::from_bounds(middle, x.upper()); };
-    return by_a ? holds_for(lower(a), c, depth - 1, holds) && holds_for(upper(a), c, depth - 1, holds)
-                : holds_for(a, lower(c), depth - 1, holds) && holds_for(a, upper(c), depth - 1, holds);
+    const bool by_a = 20.0 * width(part.a) > width(part.c);
+    const Interval& whole = by_a ? part.a : part.c;
+    const double middle = midpoint(whole);
+    const auto with = [&](const Interval& half) -> Part {
+      return by_a ? Part{half, part.c, part.halvings_left - 1} : Part{part.a, half, part.halvings_left - 1};
+    };
+    return {with(Interval::from_bounds(whole.lower(), middle)),
+            with(Interval::from_bounds(middle, whole.upper()))};
   }
 
-  [[nodiscard]] bool is_left(const Interval& a, const Interval& c, int depth) const {
-    return holds_for(a, c, depth,
-                     [](const Coordinates& at) { return certainly_less(at.a, Interval(-kHalfWidth)); });
+  /// Is it so of the image, or of those of both halves?
+  template <typename Holds>
+  [[nodiscard]] bool holds_for(const Interval& a, const Interval& c, const Holds& holds) const {
+    constexpr int kDepth = 14;
+    constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+    const auto look = [&](const Part& part) -> search::CellDecision<Part> {
+      if (holds(image(part.a, part.c))) {
+        return {true};
+      }
+      if (part.halvings_left == 0) {
+        return {};
+      }
+      return {false, halves_of(part)};
+    };
+    return search::cover_by_bisection(Part{a, c, kDepth}, kUnlimited, look).is_proved;
   }
-  [[nodiscard]] bool is_right(const Interval& a, const Interval& c, int depth) const {
-    return holds_for(a, c, depth,
-                     [](const Coordinates& at) { return certainly_less(Interval(kHalfWidth), at.a); });
+
+  [[nodiscard]] bool is_left(const Interval& a, const Interval& c) const {
+    return holds_for(a, c, [](const Coordinates& at) { return certainly_less(at.a, Interval(-kHalfWidth)); });
   }
-  [[nodiscard]] bool is_inside_or_beside(const Interval& a, const Interval& c, int depth) const {
+  [[nodiscard]] bool is_right(const Interval& a, const Interval& c) const {
+    return holds_for(a, c, [](const Coordinates& at) { return certainly_less(Interval(kHalfWidth), at.a); });
+  }
+  [[nodiscard]] bool is_inside_or_beside(const Interval& a, const Interval& c) const {
     // Below the height as it is parsed: its lower end.
     const Interval height(parse_decimal(part_.height).lower());
-    return holds_for(a, c, depth, [&](const Coordinates& at) {
+    return holds_for(a, c, [&](const Coordinates& at) {
       return certainly_less(at.a, Interval(-kHalfWidth)) || certainly_less(Interval(kHalfWidth), at.a) ||
              certainly_less(abs(at.c), height);
     });

@@ -195,7 +195,7 @@ bool is_near_linear(const ProvedSets& by_gains) {
          proof.assumed->long_run <= kNear * proof.gains->linear_error(assumed.noise, assumed.slew);
 }
 
-std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::string* reason) {
+std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, NoGains* reason) {
   constexpr std::size_t kBlocks = 64;
   constexpr double kTail = 1e-8;
   // rad/sample. Sentences speak of the steady state: what the listed one is off may not show. Half of what
@@ -205,22 +205,22 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::strin
   const Interval& band = question.whole_band;
   // One channel does not tell a frequency from its negative.
   const bool is_one = question.tracker.recursion->samples == 1;
-  const auto nothing = [&](const std::string& why) -> std::optional<ProvedSets> {
+  const auto nothing = [&](NoGains::Kind kind, const char* detail = "") -> std::optional<ProvedSets> {
     if (reason != nullptr) {
-      *reason = why;
+      *reason = {kind, detail};
     }
     return std::nullopt;
   };
   if (!question.allows_gains || question.tracker.filter != nullptr) {
-    return nothing("it needs a tone alone, bounded noise, no start_exactly and no filter");
+    return nothing(NoGains::Kind::question);
   }
   if ((is_one && !(band.lower() > 0.0)) || !(std::max(band.upper(), -band.lower()) <= rigor::pi().upper())) {
-    return nothing("the band goes beyond half the sample rate, or, with one channel, to 0");
+    return nothing(NoGains::Kind::band);
   }
   try {
     std::optional<FoundLoop> found = find_loop(question);
     if (!found) {
-      return nothing("no steady state was found from [model] start");
+      return nothing(NoGains::Kind::steady_state);
     }
     // To first order what turns with the signal changes with the errors, and so does an amplitude: then there
     // is no one matrix.
@@ -237,10 +237,10 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::strin
       gains = GainBounds::make(std::move(found->network), *samples, kBlocks);
     }
     if (!gains || !gains->bounds({})) {
-      return nothing("the bounds of its errors do not close, even without noise");
+      return nothing(NoGains::Kind::bounds);
     }
     if (!(gains->residual_error() <= kMostOfResidual)) {
-      return nothing("its steady state is not a linear function of the frequency over the whole band");
+      return nothing(NoGains::Kind::residual);
     }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
     ProvedSets sets = GainSets(question, *gains, half_distance).all();
@@ -251,7 +251,7 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, std::strin
     sets.gains = GainProof{found->steady, radius, *gains, assumed, gains->bounds(assumed)};
     return sets;
   } catch (const NoFrame& objection) {
-    return nothing(objection.what());
+    return nothing(NoGains::Kind::structure, objection.what());
   }
 }
 

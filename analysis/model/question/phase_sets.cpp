@@ -253,28 +253,28 @@ double samples_below(const PhaseProof& proof, const Interval& target) {
 }
 
 std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, KnownLimits known,
-                                               std::string* reason) {
+                                               NoGains* reason) {
   const Interval& band = question.whole_band;
-  const auto nothing = [&](const std::string& why) -> std::optional<PhaseProof> {
+  const auto nothing = [&](NoGains::Kind kind, const char* detail = "") -> std::optional<PhaseProof> {
     if (reason != nullptr) {
-      *reason = why;
+      *reason = {kind, detail};
     }
     return std::nullopt;
   };
   if (!question.allows_phase_gains) {
-    return nothing("it needs one amplitude, bounded noise, no start_exactly and no filter");
+    return nothing(NoGains::Kind::question);
   }
   if (!(band.lower() > 0.0) || !(band.upper() < rigor::pi().lower())) {
-    return nothing("the band goes to 0 or to half the sample rate");
+    return nothing(NoGains::Kind::band);
   }
   try {
     const PhaseLoop loop =
         PhaseLoop::make(question.tracker, question.tone, band, question.slew > 0.0, question.deadline);
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
     auto proof = PhaseSets(question, loop, half_distance, known).all();
-    return proof ? std::move(proof) : nothing("the bounds of its errors do not close");
+    return proof ? std::move(proof) : nothing(NoGains::Kind::bounds);
   } catch (const NoFrame& objection) {
-    return nothing(objection.what());
+    return nothing(NoGains::Kind::structure, objection.what());
   }
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
+#include "analysis/model/question/no_gains.hpp"
 #include "analysis/model/question/proved_sets.hpp"
 
 namespace veritrack::model {
@@ -19,6 +19,6 @@ struct KnownLimits {
 /// no bounds close, even without noise. `reason` then receives why. Less than what is known is not searched
 /// for. Parts of the frequencies are worked on in parallel. Needs the upward rounding mode.
 [[nodiscard]] std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, KnownLimits known,
-                                                             std::string* reason = nullptr);
+                                                             NoGains* reason = nullptr);
 
 }  // namespace veritrack::model

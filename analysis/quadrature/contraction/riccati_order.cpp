@@ -1,6 +1,11 @@
 #include "analysis/quadrature/contraction/riccati_order.hpp"
 
+#include <array>
+#include <cstdint>
+#include <limits>
+
 #include "analysis/rigor/small_definiteness.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::quadrature {
 
@@ -39,28 +44,46 @@ class OrderCheck {
 
   /// The turns by -angle mirror those by angle: with J = diag(1, -1, -1), J U(angle) J = U(-angle), and J
   /// leaves block covariances alone. So only non-negative tangents need to be looked at.
-  bool keeps(const Interval& rho, const Interval& tangent, int depth) const {
-    const Block low = riccati_update(lower_, rho, design_).filtered;
-    const Block high = riccati_update(upper_, rho, design_).filtered;
-    if (rigor::certainly_positive_definite(difference(least_, low, tangent, -1.0)) &&
-        rigor::certainly_positive_definite(difference(most_, high, tangent, 1.0))) {
-      return true;
-    }
-    if (depth == 0) {
-      return false;
-    }
-    const double middle = midpoint(tangent);
-    const double centre = midpoint(rho);
-    const bool split_turn = width(tangent) > 2.0 * width(rho);
-    if (split_turn) {
-      return keeps(rho, Interval::from_bounds(tangent.lower(), middle), depth - 1) &&
-             keeps(rho, Interval::from_bounds(middle, tangent.upper()), depth - 1);
-    }
-    return keeps(Interval::from_bounds(rho.lower(), centre), tangent, depth - 1) &&
-           keeps(Interval::from_bounds(centre, rho.upper()), tangent, depth - 1);
+  bool keeps(const Interval& rho, const Interval& tangent) const {
+    constexpr int kDepth = 12;
+    constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+    const auto look = [this](const Part& part) -> search::CellDecision<Part> {
+      if (keeps_over(part)) {
+        return {true};
+      }
+      if (part.halvings_left == 0) {
+        return {};
+      }
+      return {false, halves_of(part)};
+    };
+    return search::cover_by_bisection(Part{rho, tangent, kDepth}, kUnlimited, look).is_proved;
   }
 
  private:
+  struct Part {
+    Interval rho, tangent;
+    int halvings_left;
+  };
+
+  [[nodiscard]] bool keeps_over(const Part& part) const {
+    const Block low = riccati_update(lower_, part.rho, design_).filtered;
+    const Block high = riccati_update(upper_, part.rho, design_).filtered;
+    return rigor::certainly_positive_definite(difference(least_, low, part.tangent, -1.0)) &&
+           rigor::certainly_positive_definite(difference(most_, high, part.tangent, 1.0));
+  }
+
+  static std::array<Part, 2> halves_of(const Part& part) {
+    const bool split_turn = width(part.tangent) > 2.0 * width(part.rho);
+    const Interval& whole = split_turn ? part.tangent : part.rho;
+    const double middle = midpoint(whole);
+    const auto with = [&](const Interval& half) -> Part {
+      return split_turn ? Part{part.rho, half, part.halvings_left - 1}
+                        : Part{half, part.tangent, part.halvings_left - 1};
+    };
+    return {with(Interval::from_bounds(whole.lower(), middle)),
+            with(Interval::from_bounds(middle, whole.upper()))};
+  }
+
   static Block scaled(const Block& p, const Interval& factor) {
     return {factor * p.p11, factor * p.p22, factor * p.p23, factor * p.p33};
   }
@@ -76,11 +99,10 @@ bool certainly_keeps_covariance_between(const Block& lower, const Block& upper, 
                                         const std::vector<TurnBound>& turns,
                                         double room VERITRACK_DECLARED_CALL_SITE) {
   VERITRACK_MUTANT_RETURNS(true)
-  constexpr int kDepth = 12;
   rigor::require_upward_rounding();
   const OrderCheck check(lower, upper, design, Interval(room));
   for (const TurnBound& turn : turns) {
-    if (!check.keeps(turn.rho, Interval::from_bounds(0.0, turn.tangent), kDepth)) {
+    if (!check.keeps(turn.rho, Interval::from_bounds(0.0, turn.tangent))) {
       return false;
     }
   }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "analysis/quadrature/falsifier/steady_sampled_quantities.hpp"
-#include "analysis/quadrature/leak/steady_report.hpp"
 #include "analysis/quadrature/leak/steady_search.hpp"
 #include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -252,6 +251,7 @@ LeakCertificate certify_with_leak(const LeakQuestion& asked) {
       "With a leak the tracker settles with a bias; radii are measured from that state, error bounds from "
       "the true signal. Amplitude error and noise are relative to the true amplitude."};
   Search found = search(question, certificate);
+  certificate.branch_ends_at = found.branch.ends_at;
   if (is_finite(question.band) && sets::is_well_posed(question.tracker)) {
     replace_by_set_for_more(question, found, certificate);
   }
@@ -266,6 +266,7 @@ LeakCertificate certify_with_leak(const LeakQuestion& asked) {
                            invariant_set(question, found, rate)};
   if (report) {
     derivation.conditions.push_back(report->start_in_set());
+    certificate.start = report->start();
   }
   certificate.result = result_of(found, report, rate);
   if (report && question.tracker.with_samples) {

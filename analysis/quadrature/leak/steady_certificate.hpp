@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
+#include "analysis/quadrature/leak/steady_report.hpp"
 #include "analysis/quadrature/leak/steady_verification.hpp"
 
 namespace veritrack::quadrature {
@@ -18,10 +19,14 @@ struct LeakQuestion {
 
 struct LeakCertificate {
   /// id "contraction"; the quantities of `result`, about the steady state where they are radii and about the
-  /// truth where they are bounds; conditions steady-state, invariant-set, start-in-set.
+  /// truth where they are bounds; conditions steady-state, invariant-set, and start-in-set, which is without
+  /// words.
   theorems::Derivation derivation;
   sets::KalmanFilterResult result;
-  std::optional<SteadyVerification> set;  ///< PROVED, or the last attempt
+  std::optional<SteadyVerification> set;    ///< PROVED, or the last attempt
+  std::optional<SteadyStartFinding> start;  ///< the reason of start-in-set, where a set is PROVED
+  /// rad/sample; the lock branch ends there, inside the band, which is why nothing applies.
+  std::optional<double> branch_ends_at;
 };
 
 /// Proposes, verifies and reports. Never throws for invalid numbers: a number that is not finite proves

@@ -2,13 +2,17 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "analysis/quadrature/leak/steady_multipliers.hpp"
 #include "analysis/quadrature/leak/steady_setting.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::quadrature {
 
@@ -29,45 +33,58 @@ class Cover {
         most_cells_(most_cells),
         division_(division) {}
 
-  /// False when a cell cannot be proved to map into the next level; `reason` then says where.
-  bool proves(const SteadyCell& cell, std::size_t node, int depth) {
-    if (cell.is_outside()) {
-      return true;
-    }
-    if (division_.skips(node, level_)) {
-      return proves_parts(cell, node, depth);
-    }
-    if (++cells_ > most_cells_) {
-      reason_ = "more than " + std::to_string(most_cells_) + " cells were needed.";
-      return false;
-    }
-    const CellOutcome outcome = try_cell(cell);
-    if (outcome.contracts) {
-      division_.close(node);
-      return true;
-    }
-    const SteadyOrder& order = outcome.order;
-    const bool fails_inside = order.hopeless || (order.kept && !may_contract(cell));
-    const bool hopeless = depth == 0 || (fails_inside && std::hypot(cell.middle(kX), cell.middle(kY)) <= 1.0);
-    if (hopeless) {
-      reason_ = "at level " + rigor::to_decimal(level_, 3, rigor::Direction::up) +
-                (order.kept ? " of the set a step could not be proved to contract, or to tolerate the noise."
-                            : " of the set the covariance could not be proved to stay between its bounds.");
-      return false;
-    }
-    division_.open(node, level_, side_to_cut(cell, order.kept ? outcome.blur : order.blur));
-    return proves_parts(cell, node, depth);
-  }
-
-  [[nodiscard]] SteadyContraction result(bool proved) const {
+  /// Every cell maps into the next level. Otherwise the reason says where one cannot be proved to.
+  [[nodiscard]] SteadyContraction all() {
+    constexpr int kDepth = 18;
+    constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();  // skipped cells are free
+    const Part whole{{{-1.0, -1.0}, {1.0, 1.0}}, SteadyDivision::kWhole, kDepth};
+    const auto look = [this](const Part& part) { return look_at(part); };
     SteadyContraction over;
-    over.proved = proved;
+    over.proved = search::cover_by_bisection(whole, kUnlimited, look).is_proved;
     over.reason = reason_;
     over.cells = cells_;
     return over;
   }
 
  private:
+  /// A cell, and where the division knows it.
+  struct Part {
+    SteadyCell cell;
+    std::size_t node;
+    int halvings_left;
+  };
+
+  [[nodiscard]] search::CellDecision<Part> look_at(const Part& part) {
+    const SteadyCell& cell = part.cell;
+    if (cell.is_outside()) {
+      return {true};
+    }
+    if (division_.skips(part.node, level_)) {
+      return {false, halves_of(part)};
+    }
+    if (++cells_ > most_cells_) {
+      reason_ = "more than " + std::to_string(most_cells_) + " cells were needed.";
+      return {};
+    }
+    const CellOutcome outcome = try_cell(cell);
+    if (outcome.contracts) {
+      division_.close(part.node);
+      return {true};
+    }
+    const SteadyOrder& order = outcome.order;
+    const bool fails_inside = order.hopeless || (order.kept && !may_contract(cell));
+    const bool hopeless =
+        part.halvings_left == 0 || (fails_inside && std::hypot(cell.middle(kX), cell.middle(kY)) <= 1.0);
+    if (hopeless) {
+      reason_ = "at level " + rigor::to_decimal(level_, 3, rigor::Direction::up) +
+                (order.kept ? " of the set a step could not be proved to contract, or to tolerate the noise."
+                            : " of the set the covariance could not be proved to stay between its bounds.");
+      return {};
+    }
+    division_.open(part.node, level_, side_to_cut(cell, order.kept ? outcome.blur : order.blur));
+    return {false, halves_of(part)};
+  }
+
   /// How one cell fared.
   struct CellOutcome {
     bool contracts = false;
@@ -116,13 +133,14 @@ class Cover {
     return (known ? blur_x >= blur_y : cell.width(kX) >= cell.width(kY)) ? kX : kY;
   }
 
-  bool proves_parts(const SteadyCell& cell, std::size_t node, int depth) {
-    const std::size_t side = division_.side(node);
-    const std::size_t part = division_.first_part(node);
-    SteadyCell low = cell;
-    SteadyCell high = cell;
-    low.high[side] = high.low[side] = cell.middle(side);
-    return proves(low, part, depth - 1) && proves(high, part + 1, depth - 1);
+  /// Where the division cuts it.
+  [[nodiscard]] std::array<Part, 2> halves_of(const Part& whole) const {
+    const std::size_t side = division_.side(whole.node);
+    const std::size_t first = division_.first_part(whole.node);
+    Part low{whole.cell, first, whole.halvings_left - 1};
+    Part high{whole.cell, first + 1, whole.halvings_left - 1};
+    low.cell.high[side] = high.cell.low[side] = whole.cell.middle(side);
+    return {low, high};
   }
 
   /// The covariance_image of the cell, which it shares with all that have the same range of x.
@@ -227,11 +245,8 @@ void SteadyDivision::open(std::size_t node, double level, std::size_t side) {
 SteadyContraction prove_contraction(const SteadySettings& settings, double level, double next,
                                     const SteadyDisturbance& disturbance, std::int64_t most_cells,
                                     SteadyDivision& division) {
-  constexpr int kDepth = 18;
   rigor::require_upward_rounding();
-  Cover cover(settings, level, next, disturbance, most_cells, division);
-  const bool proved = cover.proves({{-1.0, -1.0}, {1.0, 1.0}}, SteadyDivision::kWhole, kDepth);
-  return cover.result(proved);
+  return Cover(settings, level, next, disturbance, most_cells, division).all();
 }
 
 }  // namespace veritrack::quadrature

@@ -1,9 +1,6 @@
 #include "analysis/quadrature/leak/steady_report.hpp"
 
 #include <algorithm>
-#include <string>
-
-#include "analysis/rigor/decimal.hpp"
 
 namespace veritrack::quadrature {
 
@@ -28,34 +25,14 @@ SteadyReport::SteadyReport(const sets::ContractionQuestion& question, const sets
 
 theorems::Condition SteadyReport::start_in_set() const {
   theorems::Condition condition{"start-in-set",
-                                "|T (e - e^*)| \\le 1,\\ -\\Delta_{lo} \\le P - P^* \\le \\Delta_{hi}",
+                                {},
                                 start_.reached ? Verdict::proved : Verdict::undecided,
                                 start_.level ? Interval(*start_.level) : Interval::empty(),
                                 Interval(1.0),
                                 {},
                                 theorems::Sense::at_most};
-  if (start_.reached && start_.samples == 0) {
-    condition.reason =
-        "every assumed start lies in the certified set around the steady state of its frequency.";
-  } else if (start_.reached) {
+  if (start_.reached && start_.samples != 0) {
     condition.lhs = Interval(start_.level_when_reached);
-    condition.reason =
-        "every assumed start enters the certified set around the steady state of its frequency within " +
-        std::to_string(start_.samples) + " samples, with a frequency error of at most " +
-        rigor::upper_decimal(Interval(start_.frequency_error)) +
-        " rad/sample on the way: followed in interval arithmetic, with the assumed noise.";
-  } else if (start_.level) {
-    condition.reason =
-        "the assumed starts have level " + rigor::upper_decimal(Interval(*start_.level)) +
-        "; the certified set has level 1, measured from the steady state, which is biased by up to " +
-        rigor::upper_decimal(Interval(bias_)) + " rad/sample";
-    condition.reason += start_.failure.empty() ? "" : ", and " + start_.failure;
-    condition.reason +=
-        ": a smaller leak epsilon, a narrower [assume] frequency or smaller start errors would help.";
-  } else {
-    condition.reason = (covariance_range_.empty() ? "the initial covariance" : covariance_range_) +
-                       " is not proved to lie between the bounds of the certified set";
-    condition.reason += start_.failure.empty() ? "." : ", and " + start_.failure + ".";
   }
   return condition;
 }

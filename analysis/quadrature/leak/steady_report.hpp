@@ -10,6 +10,13 @@
 
 namespace veritrack::quadrature {
 
+/// What is known of the assumed starts and a set around the steady state.
+struct SteadyStartFinding {
+  SteadyStart start;             ///< all of them
+  double bias = 0.0;             ///< of the steady state, at most, rad/sample
+  std::string covariance_range;  ///< a noun for the covariances that the question asks for; or empty
+};
+
 /// Needs the upward mode. Bounds are of the frequency error from the true signal, rad/sample.
 class SteadyReport {
  public:
@@ -17,8 +24,10 @@ class SteadyReport {
   SteadyReport(const sets::ContractionQuestion& question, const sets::LockBranch& branch,
                const SteadySet& set);
 
-  /// The condition start-in-set.
+  /// The condition start-in-set, without words.
   [[nodiscard]] theorems::Condition start_in_set() const;
+  /// Its reason.
+  [[nodiscard]] SteadyStartFinding start() const { return {start_, bias_, covariance_range_}; }
   /// |e_i - e*_i| at level 1: amplitude, phase (rad), frequency (rad/sample).
   [[nodiscard]] rigor::Interval radius(Eigen::Index i) const;
   /// In the long run.

@@ -4,9 +4,13 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
 #include "analysis/quadrature/true_phase/ellipsoid_search.hpp"
 #include "analysis/rigor/symmetric_eigensystem.hpp"
+#include "analysis/search/bisection_cover.hpp"
 
 namespace veritrack::quadrature {
 
@@ -42,35 +46,31 @@ Matrix3d spread(const trackers::ToneModel<double>& design, const Matrix3d& covar
          absolute((after(m1, m2 + h2) - after(m1, m2 - h2)) / 2.0, at_middle) + kLeast * at_middle;
 }
 
-std::unique_ptr<CellTree> cover_box(const trackers::ToneModel<double>& design, const ErrorEllipsoid& set,
-                                    const ErrorBox& box, int& boxes_left) {
-  auto tree = std::make_unique<CellTree>();
-  if (is_outside(set, box)) {
-    return tree;
-  }
-  if (const auto numbers = numbers_for(design, set, box)) {
-    tree->kind = CellTree::Kind::checked;
-    tree->numbers = *numbers;
-    return tree;
-  }
-  if (--boxes_left <= 0) {
-    return nullptr;
-  }
-  tree->kind = CellTree::Kind::cut;
+/// A box, and where in the tree it is noted.
+struct NotedBox {
+  ErrorBox box;
+  CellTree* node;
+};
+
+/// Cuts the longest side in the middle, and notes where.
+std::array<NotedBox, 2> cut(const NotedBox& whole) {
+  CellTree& tree = *whole.node;
+  const auto& sides = whole.box.sides;
+  tree.kind = CellTree::Kind::cut;
   for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (rigor::width(box.sides.at(axis)) > rigor::width(box.sides.at(static_cast<std::size_t>(tree->axis)))) {
-      tree->axis = static_cast<int>(axis);
+    if (rigor::width(sides.at(axis)) > rigor::width(sides.at(static_cast<std::size_t>(tree.axis)))) {
+      tree.axis = static_cast<int>(axis);
     }
   }
-  ErrorBox below = box;
-  ErrorBox above = box;
-  const auto axis = static_cast<std::size_t>(tree->axis);
-  tree->at = rigor::midpoint(box.sides.at(axis));
-  below.sides.at(axis) = Interval::from_bounds(box.sides.at(axis).lower(), tree->at);
-  above.sides.at(axis) = Interval::from_bounds(tree->at, box.sides.at(axis).upper());
-  tree->below = cover_box(design, set, below, boxes_left);
-  tree->above = tree->below ? cover_box(design, set, above, boxes_left) : nullptr;
-  return tree->above ? std::move(tree) : nullptr;
+  const auto axis = static_cast<std::size_t>(tree.axis);
+  tree.at = rigor::midpoint(sides.at(axis));
+  tree.below = std::make_unique<CellTree>();
+  tree.above = std::make_unique<CellTree>();
+  NotedBox below{whole.box, tree.below.get()};
+  NotedBox above{whole.box, tree.above.get()};
+  below.box.sides.at(axis) = Interval::from_bounds(sides.at(axis).lower(), tree.at);
+  above.box.sides.at(axis) = Interval::from_bounds(tree.at, sides.at(axis).upper());
+  return {below, above};
 }
 
 }  // namespace
@@ -126,7 +126,25 @@ std::optional<CellNumbers> numbers_for(const trackers::ToneModel<double>& design
 
 std::unique_ptr<CellTree> cover(const trackers::ToneModel<double>& design, const ErrorEllipsoid& set,
                                 int most_boxes) {
-  return cover_box(design, set, box_around(set), most_boxes);
+  auto tree = std::make_unique<CellTree>();
+  const auto look = [&](const NotedBox& here) -> search::CellDecision<NotedBox> {
+    if (is_outside(set, here.box)) {
+      return {true};
+    }
+    if (const auto numbers = numbers_for(design, set, here.box)) {
+      here.node->kind = CellTree::Kind::checked;
+      here.node->numbers = *numbers;
+      return {true};
+    }
+    if (--most_boxes <= 0) {
+      return {};
+    }
+    return {false, cut(here)};
+  };
+  constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();  // most_boxes limits the cuts
+  const bool is_covered =
+      search::cover_by_bisection(NotedBox{box_around(set), tree.get()}, kUnlimited, look).is_proved;
+  return is_covered ? std::move(tree) : nullptr;
 }
 
 }  // namespace veritrack::quadrature

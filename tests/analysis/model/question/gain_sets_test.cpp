@@ -126,12 +126,13 @@ TEST_CASE("other questions are left to tubes") {
   const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::sine));
   SetQuestion question = question_of(loop);
   question.allows_gains = false;
-  std::string reason;
+  NoGains reason{NoGains::Kind::bounds};
   CHECK_FALSE(prove_by_gains(question, &reason).has_value());
-  CHECK_FALSE(reason.empty());
+  CHECK(reason.kind == NoGains::Kind::question);
   question.allows_gains = true;
   question.whole_band = Interval::from_bounds(0.0, 4.0);
-  CHECK_FALSE(prove_by_gains(question).has_value());
+  CHECK_FALSE(prove_by_gains(question, &reason).has_value());
+  CHECK(reason.kind == NoGains::Kind::band);
 }
 
 TEST_CASE("a fast loop of one channel is far from its linear recursion, a slow one is near") {

@@ -1,0 +1,115 @@
+#include "analysis/model/question/proof_choice.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "analysis/model/question/gain_sets.hpp"
+#include "analysis/model/question/phase_sets.hpp"
+#include "analysis/rigor/small_matrix.hpp"
+
+namespace veritrack::model {
+
+namespace {
+
+/// Where gains are not enough: why there are no tubes, either.
+std::optional<ProofObjection> objection_to_tubes(const SetQuestion& question) {
+  constexpr int kMostStatesInTubes = 16;
+  const int states = question.tracker.recursion->states;
+  const bool is_too_large = question.tone.filter == nullptr && states > kMostStatesInTubes;
+  if (!is_too_large && !question.band.is_empty()) {
+    return std::nullopt;
+  }
+  using Kind = ProofObjection::Kind;
+  if (question.whole_band.lower() < 0.0) {
+    return ProofObjection{Kind::negative_frequencies};
+  }
+  return is_too_large ? ProofObjection{Kind::too_many_states, states, kMostStatesInTubes}
+                      : ProofObjection{Kind::no_band};
+}
+
+double tolerated_noise(const std::optional<ProvedSet>& set) {
+  return set && set->is_proved() ? set->tubes.noise : 0.0;
+}
+double proved_reach(const ProvedSet& set) {
+  return set.is_proved() ? set.reach : 0.0;
+}
+
+/// Adds what gains on the average prove of noise and starts, where that is more than tubes have.
+void add_averages(ProvedSets by_gains, ProvedSets& sets) {
+  if (!(tolerated_noise(by_gains.noise) > tolerated_noise(sets.noise)) &&
+      !(proved_reach(by_gains.starts) > proved_reach(sets.starts))) {
+    return;
+  }
+  by_gains.starts.proof = ProvedSet::Proof::averages;
+  if (by_gains.noise) {
+    by_gains.noise->proof = ProvedSet::Proof::averages;
+  }
+  sets.averages = {*std::move(by_gains.gains), std::move(by_gains.starts), std::move(by_gains.noise)};
+}
+
+/// Adds the proof by gains that depend on the phase, if something is better with it.
+void add_phases(const SetQuestion& question, ChosenProof& chosen) {
+  ProvedSets& sets = chosen.sets;
+  KnownLimits known{tolerated_noise(sets.noise), proved_reach(sets.starts)};
+  if (sets.averages) {
+    known = {std::max(known.noise, tolerated_noise(sets.averages->noise)),
+             std::max(known.reach, proved_reach(sets.averages->starts))};
+  }
+  NoGains reason;
+  sets.phases = prove_by_phase_gains(question, known, &reason);
+  if (!sets.phases && question.allows_phase_gains) {
+    chosen.no_phase_gains = std::move(reason);
+  }
+  if (sets.phases && !sets.best().is_without_tubes() &&
+      !(tolerated_noise(sets.phases->noise) > known.noise)) {
+    sets.phases.reset();
+  }
+}
+
+}  // namespace
+
+bool covariance_is_bounded(const trackers::FilterParts& filter, bool names_covariance) {
+  // With an F other than the derivative no tube was found for Zarchan's third filter in this way, but one was
+  // found in the other way; with more states than these the other way is out of reach.
+  constexpr int kMostWithCovariance = 3;
+  const bool prefers_states = filter.has_given_jacobian && filter.states <= kMostWithCovariance;
+  return !names_covariance && !prefers_states;
+}
+
+FirstProof prove_by_gains_first(const SetQuestion& question) {
+  FirstProof first;
+  const trackers::Recursion& recursion = *question.tracker.recursion;
+  if (recursion.states > rigor::kMostSmallRows && question.tone.filter == nullptr) {
+    first.objection =
+        ProofObjection{ProofObjection::Kind::too_many_states, recursion.states, rigor::kMostSmallRows};
+    return first;
+  }
+  NoGains reason;
+  first.by_gains = prove_by_gains(question, &reason);
+  if (!first.by_gains) {
+    first.no_gains = std::move(reason);
+  }
+  first.is_enough = first.by_gains && (recursion.samples > 1 || is_near_linear(*first.by_gains));
+  if (!first.is_enough) {
+    first.objection = objection_to_tubes(question);
+  }
+  return first;
+}
+
+ChosenProof choose_proof(const SetQuestion& question, std::optional<ProvedSets> by_gains,
+                         const SetProgress& progress) {
+  ChosenProof chosen;
+  chosen.sets = prove_sets(question, progress);
+  if (by_gains && by_gains->deciding().is_proved() && !chosen.sets.deciding().is_proved()) {
+    chosen.sets = *std::move(by_gains);
+    chosen.is_by_gains = true;
+    return chosen;
+  }
+  if (by_gains && by_gains->gains && by_gains->gains->gains) {
+    add_averages(*std::move(by_gains), chosen.sets);
+  }
+  add_phases(question, chosen);
+  return chosen;
+}
+
+}  // namespace veritrack::model

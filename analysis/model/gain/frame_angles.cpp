@@ -22,7 +22,8 @@ bool FrameRules::find_pattern(Frame& frame, const Waves& y, const Waves& x, Wave
   const bool turns_on = of_x.imaginary == -of_y.real && of_y.imaginary == of_x.real;
   const bool turns_back = of_x.imaginary == of_y.real && of_y.imaginary == -of_x.real;
   const bool is_quarter = (of_x.real == 0.0) == (of_y.real != 0.0);
-  if (monomial.is_real() || monomial.noise > 0 || !is_quarter || (!turns_on && !turns_back)) {
+  if (monomial.is_real() || monomial.noise > 0 || !is_quarter || (!turns_on && !turns_back) ||
+      !keeps_positive(frame, monomial)) {
     return false;
   }
   Interval factor(1.0);
@@ -80,7 +81,7 @@ FrameLine Frame::direction_of(const FrameValue& real, const FrameValue& imaginar
   WavePattern pattern;
   if (real.kind() != Kind::waves || imaginary.kind() != Kind::waves ||
       !FrameRules::find_pattern(*this, imaginary.waves(), real.waves(), pattern) ||
-      !pattern.monomial.lengths.empty()) {
+      pattern.monomial.has_unknown_length()) {
     throw NoFrame("a vector of states that does not follow the direction of the samples");
   }
   return FrameRules::whole_angle(*this, pattern);
@@ -113,12 +114,15 @@ FrameValue sine(const FrameValue& a, FrameOperation operation, WaveWeights weigh
 bool reciprocal_of(Frame& frame, const FrameValue& x, Waves& result) {
   Waves waves;
   if (!FrameRules::as_waves(x, waves) || waves.size() != 1 || !waves.begin()->first.is_real() ||
-      waves.begin()->first.noise > 0 || !waves.begin()->first.lengths.empty()) {
+      waves.begin()->first.noise > 0 || !FrameRules::keeps_positive(frame, waves.begin()->first)) {
     return false;
   }
   const auto& [monomial, weights] = *waves.begin();
   Monomial other;
   other.magnitude = -monomial.magnitude;
+  for (const auto& [name, power] : monomial.lengths) {
+    other.lengths[name] = -power;
+  }
   for (const int factor : monomial.factors) {
     other.factors.push_back(FrameRules::reciprocal_factor(frame, factor));
   }
@@ -135,17 +139,26 @@ bool reciprocal_of(Frame& frame, const FrameValue& x, Waves& result) {
 }
 
 /// The root of real waves of one monomial that is a square.
-bool root_of(const Waves& waves, Waves& result) {
-  if (waves.size() != 1 || !waves.begin()->first.is_real() || waves.begin()->first.noise > 0 ||
-      waves.begin()->first.magnitude % 2 != 0 || !waves.begin()->first.factors.empty() ||
-      !waves.begin()->first.lengths.empty() || !(waves.begin()->second.real > 0.0)) {
+bool root_of(Frame& frame, const Waves& waves, Waves& result) {
+  if (waves.size() != 1) {
+    return false;
+  }
+  const Monomial& square = waves.begin()->first;
+  const bool is_even = std::all_of(square.lengths.begin(), square.lengths.end(),
+                                   [](const auto& length) { return length.second % 2 == 0; });
+  if (!square.is_real() || square.noise > 0 || square.magnitude % 2 != 0 || !square.factors.empty() ||
+      !is_even || !(waves.begin()->second.real > 0.0) || !FrameRules::keeps_positive(frame, square)) {
     return false;
   }
   const double root = std::round(std::sqrt(waves.begin()->second.real) * 0x1p10) * 0x1p-10;
   if (root * root != waves.begin()->second.real) {
     return false;
   }
-  FrameRules::add_wave(result, {waves.begin()->first.magnitude / 2, 0, 0, {}, {}}, {root, 0.0});
+  Monomial half{square.magnitude / 2, 0, 0, {}, {}};
+  for (const auto& [name, power] : square.lengths) {
+    half.lengths[name] = power / 2;
+  }
+  FrameRules::add_wave(result, std::move(half), {root, 0.0});
   return true;
 }
 
@@ -202,7 +215,7 @@ FrameValue operator/(const FrameValue& a, const FrameValue& b) {
 
 FrameValue sqrt(const FrameValue& a) {
   Waves root;
-  if (a.kind() == Kind::waves && root_of(a.waves(), root)) {
+  if (a.kind() == Kind::waves && root_of(*a.frame(), a.waves(), root)) {
     return {a.frame(), FrameRules::named(*a.frame(), FrameOperation::root, a.name()), Kind::waves,
             std::move(root)};
   }

@@ -214,6 +214,40 @@ int FrameRules::disc(Frame& frame, const Monomial& monomial) {
   return frame.discs_[monomial] = add_input(frame, std::move(input));
 }
 
+bool FrameRules::keeps_positive(Frame& frame, const Monomial& monomial) {
+  for (const auto& [name, power] : monomial.lengths) {
+    if (name < 0 || frame.positive_.contains(name)) {
+      continue;
+    }
+    const FrameLine& line = frame.lengths_.at(name);
+    const Interval base = base_of(line, frame.band_);
+    if (!rigor::certainly_less(Interval(0.0), base)) {
+      return false;
+    }
+    add_limit(frame, add_form(frame, line), base);
+    frame.positive_.insert(name);
+  }
+  return true;
+}
+
+/// Re M or Im M with linear values as factors.
+FrameLine FrameRules::scaled_part(Frame& frame, const Monomial& monomial, int part) {
+  if (monomial.has_unknown_length()) {
+    throw NoFrame("the length of a vector of states matters");
+  }
+  Monomial bare = monomial;
+  bare.lengths.clear();
+  FrameLine line = part_of_wave(frame, bare, part);
+  for (const auto& [name, power] : monomial.lengths) {
+    const FrameLine& length = frame.lengths_.at(name);
+    const FrameLine factor = power > 0 ? length : function_line(frame, FrameOperation::reciprocal, length);
+    for (int i = 0; i < std::abs(power); ++i) {
+      line = product_line(frame, line, factor, false);
+    }
+  }
+  return line;
+}
+
 /// Re M (part 0) or Im M (part 1) of a monomial without factors.
 FrameLine FrameRules::part_of_wave(Frame& frame, const Monomial& monomial, int part) {
   const auto key = std::pair(monomial, part);
@@ -222,7 +256,7 @@ FrameLine FrameRules::part_of_wave(Frame& frame, const Monomial& monomial, int p
     return found->second;
   }
   if (!monomial.lengths.empty()) {
-    throw NoFrame("the length of a vector of states matters");
+    return frame.parts_[key] = scaled_part(frame, monomial, part);
   }
   const FrameLine phase = phase_of(frame, monomial);
   FrameLine line;

@@ -58,6 +58,11 @@ struct FrameRules {
   static double exact_product(double a, double b);
   /// A constant or waves as waves; false for others.
   static bool as_waves(const FrameValue& value, Waves& waves);
+  /// A linear value without turns as a factor of waves that turn with the signal; false for others.
+  static bool as_factor(const FrameValue& value, const FrameValue& of, Waves& waves);
+  /// Whether all lengths in it are above 0, which is a limit from now on.
+  static bool keeps_positive(Frame& frame, const Monomial& monomial);
+  static FrameLine scaled_part(Frame& frame, const Monomial& monomial, int part);
   static void add_wave(Waves& waves, Monomial monomial, WaveWeights weights);
   static Waves product_of(const Waves& a, const Waves& b);
   static FrameLine sum_of(const FrameLine& a, const FrameLine& b, bool subtracts);

@@ -137,6 +137,22 @@ bool FrameRules::as_waves(const FrameValue& value, Waves& waves) {
   return true;
 }
 
+bool FrameRules::as_factor(const FrameValue& value, const FrameValue& of, Waves& waves) {
+  if (value.kind() != FrameValue::Kind::line || of.kind() != FrameValue::Kind::waves ||
+      value.line().turns != 0 || value.line().is_modular) {
+    return false;
+  }
+  Frame& frame = *of.frame();
+  const bool turns = std::any_of(of.waves().begin(), of.waves().end(),
+                                 [&](const auto& wave) { return phase_of(frame, wave.first).turns != 0; });
+  if (frame.channels_ != 2 || !turns) {
+    return false;
+  }
+  frame.lengths_.try_emplace(value.name(), value.line());
+  add_wave(waves, {0, 0, 0, {}, {}, {{value.name(), 1}}}, {1.0, 0.0});
+  return true;
+}
+
 /// Re(a) Re(b) = Re(a b)/2 + Re(a conj b)/2.
 Waves FrameRules::product_of(const Waves& a, const Waves& b) {
   Waves product;
@@ -150,8 +166,8 @@ Waves FrameRules::product_of(const Waves& a, const Waves& b) {
         for (const auto& [name, multiple] : n.angles) {
           add_power(both.angles, name, sign * multiple);
         }
-        for (const auto& [vector, power] : n.lengths) {
-          add_power(both.lengths, vector, power);
+        for (const auto& [length, power] : n.lengths) {
+          add_power(both.lengths, length, power);
         }
         both.factors.insert(both.factors.end(), n.factors.begin(), n.factors.end());
         std::sort(both.factors.begin(), both.factors.end());
@@ -252,6 +268,11 @@ FrameValue operator*(const FrameValue& a, const FrameValue& b) {
   if (has_waves && FrameRules::as_waves(a, first) && FrameRules::as_waves(b, second)) {
     return {&frame, name, FrameValue::Kind::waves, FrameRules::product_of(first, second)};
   }
+  Waves factor;
+  if (FrameRules::as_factor(a, b, factor) || FrameRules::as_factor(b, a, factor)) {
+    return {&frame, name, FrameValue::Kind::waves,
+            FrameRules::product_of(factor, (a.kind() == FrameValue::Kind::waves ? a : b).waves())};
+  }
   const FrameLine x = frame.line_of(a);
   const FrameLine y = frame.line_of(b);
   if (x.is_constant() || y.is_constant()) {
@@ -282,7 +303,7 @@ std::array<FrameValue, 2> Frame::vector(int real, int turns, double constant, do
   FrameRules::keep_angle(*this, angle.name(), angle.line());
   const auto part = [&](int which) {
     Waves waves;
-    FrameRules::add_wave(waves, {0, 0, 0, {{angle.name(), 1}}, {}, {{real, 1}}},
+    FrameRules::add_wave(waves, {0, 0, 0, {{angle.name(), 1}}, {}, {{-1 - real, 1}}},
                          {which == 0 ? 1.0 : 0.0, which == 0 ? 0.0 : 1.0});
     return FrameValue(this, FrameRules::named(*this, FrameOperation::vector, real, which),
                       FrameValue::Kind::waves, std::move(waves));

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -37,15 +38,18 @@ struct FrameLine {
 
 /// |y|^magnitude e^(i (order arg y + sum of k L)), times the constants in `factors`; L and constants by name.
 /// With one channel |y| stands for the amplitude, arg y for the phase of the sample, and the noise is a
-/// factor. `lengths`: times powers of the lengths of vectors of states, of which nothing else is known.
+/// factor. `lengths`: times powers of linear values without turns, by name, and of the lengths of vectors of
+/// states, of which nothing is known but that they are positive.
 struct Monomial {
   int magnitude = 0, order = 0;
   int noise = 0;                    ///< the power of the noise; one channel
   std::map<int, int> angles;        ///< k by the name of L, not 0
   std::vector<int> factors;         ///< names of constants, in order
-  std::map<int, int> lengths = {};  ///< powers that are not 0, by the vector's real part
+  std::map<int, int> lengths = {};  ///< powers that are not 0
 
   [[nodiscard]] bool is_real() const { return order == 0 && angles.empty(); }
+  /// Whether a length of which nothing is known is a factor: these have names below 0.
+  [[nodiscard]] bool has_unknown_length() const { return !lengths.empty() && lengths.begin()->first < 0; }
   friend auto operator<=>(const Monomial&, const Monomial&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
@@ -180,6 +184,8 @@ class Frame {
   std::map<std::tuple<int, int, int>, int> name_of_;     // of an operation on names
   std::map<double, int> exact_;                          // names of exact constants
   std::map<int, FrameLine> angles_;                      // by name: of which sin and cos were taken
+  std::map<int, FrameLine> lengths_;                     // by name: that are factors of waves
+  std::set<int> positive_;                               // those that are above 0
   std::map<int, rigor::Interval> factors_;               // by name: constants
   std::map<std::tuple<int, int, int>, FrameLine> made_;  // nodes, by operation and operands
   std::map<Monomial, int> discs_;                        // number of the input

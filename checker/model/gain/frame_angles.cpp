@@ -95,6 +95,17 @@ int LinearFrame::stays_within(int x, int low, int high) {
   return x;
 }
 
+bool LinearFrame::stays_positive(int x) {
+  if (!at(x).is_plain() || !certainly_positive(base(at(x)))) {
+    return false;
+  }
+  if (!names_.contains("positive " + std::to_string(x))) {
+    names_["positive " + std::to_string(x)] = x;
+    limit(x, zero, Ball(0x1p64));  // 2^64 is no limit
+  }
+  return true;
+}
+
 int LinearFrame::modulo_turn(int x) {
   return made("modulo " + std::to_string(x), [&] {
     LinearValue value = at(x);

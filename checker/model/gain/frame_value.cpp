@@ -40,7 +40,7 @@ std::array<FrameValue, 2> FrameValue::vector(std::size_t state, const LinearValu
 int FrameValue::direction(const FrameValue& real, const FrameValue& imaginary) {
   if (real.is_sum_of_waves() && imaginary.is_sum_of_waves()) {
     const std::optional<TurnedWave> wave = turned_wave(frame(), *imaginary.waves(), *real.waves());
-    if (wave && wave->wave.vectors.empty()) {
+    if (wave && !wave->wave.has_unknown_length()) {
       return frame().modulo_turn(argument(frame(), *wave));
     }
   }
@@ -98,6 +98,14 @@ FrameValue operator*(const FrameValue& x, const FrameValue& y) {
       return FrameValue(product(*left, *right));
     }
   }
+  // A linear value without turns stays a factor of what turns with the signal.
+  for (const auto& [factor, turning] : {std::pair(&x, &y), std::pair(&y, &x)}) {
+    const auto* known = std::get_if<FrameValue::Linear>(&factor->value_);
+    if (known != nullptr && turning->is_sum_of_waves() && turns_with_signal(frame(), *turning->waves()) &&
+        frame().at(known->number).is_plain()) {
+      return FrameValue(product(*turning->waves(), length_wave(known->number)));
+    }
+  }
   return FrameValue(FrameValue::Linear{frame().product(x.linear(), y.linear())});
 }
 
@@ -109,8 +117,9 @@ FrameValue operator/(const FrameValue& x, const FrameValue& y) {
   }
   if (left && y.is_sum_of_waves()) {
     // |y| > 0: the noise is certainly below the amplitude (GainNetwork).
-    if (const std::optional<int> power = power_of_length(*right)) {
-      return FrameValue(divided_by_length(*left, *power));
+    const std::optional<Wave> lengths = product_of_lengths(*right);
+    if (lengths && keeps_positive(frame(), *lengths)) {
+      return FrameValue(times(*left, reciprocal(*lengths)));
     }
     if (const std::optional<TurnedWave> wave = turned_wave(frame(), *left, *right)) {
       const int angle = argument(frame(), *wave);
@@ -128,9 +137,10 @@ FrameValue operator/(const FrameValue& x, const FrameValue& y) {
 
 FrameValue sqrt(const FrameValue& x) {
   if (const auto* waves = std::get_if<Waves>(&x.value_)) {
-    const std::optional<int> power = power_of_length(*waves);
-    if (power && *power % 2 == 0) {
-      return FrameValue(divided_by_length(*waves, *power / 2));
+    const std::optional<Wave> square = product_of_lengths(*waves);
+    const std::optional<Wave> length = square ? root(*square) : std::nullopt;
+    if (length && keeps_positive(frame(), *length)) {
+      return FrameValue(Waves{{*length, {kExactUnit, 0}}});
     }
   }
   return x.function("sqrt");

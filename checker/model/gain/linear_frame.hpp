@@ -85,6 +85,8 @@ class LinearFrame {
   /// atan2 of y and x, off its cut.
   int direction(int y, int x);
   int stays_within(int x, int low, int high);
+  /// Whether its steady value is above 0: that it stays so is a limit.
+  bool stays_positive(int x);
   int larger(int x, int y);
   int clamped(int x, int low, int high);
   /// 1 or -1: that it stays so is a limit.

@@ -1,5 +1,6 @@
 #include "checker/model/gain/wave_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -52,7 +53,19 @@ int angle_of(LinearFrame& frame, const Wave& wave) {
 
 }  // namespace
 
-std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, const Waves& x) {
+bool keeps_positive(LinearFrame& frame, const Wave& wave) {
+  return std::all_of(wave.lengths.begin(), wave.lengths.end(), [&](const auto& length) {
+    return length.first < 0 || frame.stays_positive(length.first);
+  });
+}
+
+bool turns_with_signal(LinearFrame& frame, const Waves& waves) {
+  return !frame.has_one_channel() && std::any_of(waves.begin(), waves.end(), [&](const auto& entry) {
+    return frame.at(angle_of(frame, entry.first)).turns != 0;
+  });
+}
+
+std::optional<TurnedWave> turned_wave(LinearFrame& frame, const Waves& y, const Waves& x) {
   if (x.size() != 1 || y.size() != 1 || x.begin()->first != y.begin()->first || has_noise(x)) {
     return std::nullopt;
   }
@@ -63,7 +76,7 @@ std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, 
   const Ball factor = product_of_constants(frame, x.begin()->first);
   const bool is_positive = certainly_positive(factor);
   if ((real != 0) == (imaginary != 0) || (of_y != ahead && of_y != behind) ||
-      (!is_positive && !certainly_positive(-factor))) {
+      (!is_positive && !certainly_positive(-factor)) || !keeps_positive(frame, x.begin()->first)) {
     return std::nullopt;
   }
   // arg conj(gamma) of x, in quarter turns.
@@ -139,11 +152,39 @@ void add_disc(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Line
   add_deviations(sum, unit, one);
 }
 
+/// Adds Re(conj(gamma) M), where M has linear values as factors.
+void add_scaled(LinearFrame& frame, LinearValue& sum, const Wave& wave, const InputFactor& gamma) {
+  if (wave.has_unknown_length()) {
+    throw NotCovered("the length of a vector of states matters");
+  }
+  Wave bare = wave;
+  bare.lengths.clear();
+  const std::array<std::pair<Ball, std::array<std::int64_t, 2>>, 2> parts{
+      {{gamma.first, {kExactUnit, 0}}, {gamma.second, {0, kExactUnit}}}};
+  for (const auto& [factor, unit] : parts) {
+    if (certainly_equal(factor, zero)) {
+      continue;
+    }
+    int value = linear_value(frame, {{bare, unit}});
+    for (const auto& [length, power] : wave.lengths) {
+      const int scale = power > 0 ? length : frame.function("reciprocal", length);
+      for (int i = 0; i < std::abs(power); ++i) {
+        value = frame.product(value, scale);
+      }
+    }
+    const LinearValue part = frame.at(value);
+    sum.constant += factor * part.constant;
+    sum.per_frequency += factor * part.per_frequency;
+    add_deviations(sum, part, factor);
+  }
+}
+
 /// Adds Re(conj(gamma) M) as a linear value; gamma = (real, imaginary).
 void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ball& real,
                 const Ball& imaginary) {
-  if (!wave.vectors.empty()) {
-    throw NotCovered("the length of a vector of states matters");
+  if (!wave.lengths.empty()) {
+    add_scaled(frame, sum, wave, {real, imaginary});
+    return;
   }
   const int s = wave.length;
   const int m = wave.turns;

@@ -16,9 +16,14 @@ struct TurnedWave {
   bool is_conjugate = false;
 };
 /// Whether x + j y is such a number, with a factor that is certainly not 0.
-std::optional<TurnedWave> turned_wave(const LinearFrame& frame, const Waves& y, const Waves& x);
+std::optional<TurnedWave> turned_wave(LinearFrame& frame, const Waves& y, const Waves& x);
 /// The value of the argument of x + j y, modulo 2 pi.
 int argument(LinearFrame& frame, const TurnedWave& wave);
+
+/// Whether all lengths in it are above 0, which is a limit from now on.
+bool keeps_positive(LinearFrame& frame, const Wave& wave);
+/// Of two channels: whether some wave depends on the phase of the signal.
+bool turns_with_signal(LinearFrame& frame, const Waves& waves);
 
 /// As a linear value. Throws NotCovered where a wave depends on the phase; in one channel it is a ripple
 /// then.

@@ -25,11 +25,11 @@ void add_wave(Waves& sum, Wave wave, std::array<std::int64_t, 2> gamma) {
   if (first == 0) {
     gamma[1] = 0;  // M is real
   }
-  std::erase_if(wave.vectors, [](const auto& vector) { return vector.second == 0; });
+  std::erase_if(wave.lengths, [](const auto& length) { return length.second == 0; });
   bool is_large = std::abs(wave.length) > kLargestPower || wave.noise > kLargestPower ||
                   std::abs(wave.turns) > kLargestPower;
-  for (const auto& vector : wave.vectors) {
-    is_large = is_large || std::abs(vector.second) > kLargestPower;
+  for (const auto& length : wave.lengths) {
+    is_large = is_large || std::abs(length.second) > kLargestPower;
   }
   for (const auto& angle : wave.angles) {
     is_large = is_large || std::abs(angle.second) > kLargestPower;
@@ -57,11 +57,11 @@ Wave product_of(const Wave& x, const Wave& y, int sign) {
     angles[angle] += sign * times;
   }
   result.angles.assign(angles.begin(), angles.end());
-  std::map<int, int> vectors(x.vectors.begin(), x.vectors.end());
-  for (const auto& [vector, power] : y.vectors) {
-    vectors[vector] += power;
+  std::map<int, int> lengths(x.lengths.begin(), x.lengths.end());
+  for (const auto& [length, power] : y.lengths) {
+    lengths[length] += power;
   }
-  result.vectors.assign(vectors.begin(), vectors.end());
+  result.lengths.assign(lengths.begin(), lengths.end());
   return result;
 }
 
@@ -77,8 +77,8 @@ std::string name_of(const Wave& wave) {
   for (const auto& [angle, times] : wave.angles) {
     name += " " + std::to_string(times) + "*" + std::to_string(angle);
   }
-  for (const auto& [vector, power] : wave.vectors) {
-    name += " |" + std::to_string(vector) + "|^" + std::to_string(power);
+  for (const auto& [length, power] : wave.lengths) {
+    name += " |" + std::to_string(length) + "|^" + std::to_string(power);
   }
   return name;
 }
@@ -111,7 +111,7 @@ Waves constant_wave(const ConstantFactors& constant) {
 }
 
 Waves vector_waves(std::size_t state, int angle, int part) {
-  const Wave wave{{}, 0, 0, {{angle, 1}}, 0, {{static_cast<int>(state), 1}}};
+  const Wave wave{{}, 0, 0, {{angle, 1}}, 0, {{-1 - static_cast<int>(state), 1}}};
   return {{wave, part == 0 ? std::array<std::int64_t, 2>{kExactUnit, 0}
                            : std::array<std::int64_t, 2>{0, kExactUnit}}};
 }
@@ -137,10 +137,9 @@ Waves product(const Waves& x, const Waves& y) {
   Waves result;
   for (const auto& [wave, gamma] : x) {
     for (const auto& [other, delta] : y) {
-      const auto is_real = [](const Wave& w) { return w.turns == 0 && w.angles.empty(); };
-      if (is_real(wave) || is_real(other)) {
+      if (wave.is_real() || other.is_real()) {
         // One of gamma and delta is real.
-        add_wave(result, product_of(is_real(wave) ? other : wave, is_real(wave) ? wave : other, 1),
+        add_wave(result, product_of(wave.is_real() ? other : wave, wave.is_real() ? wave : other, 1),
                  {exact_sum(exact_product(gamma[0], delta[0]), -exact_product(gamma[1], delta[1])),
                   exact_sum(exact_product(gamma[0], delta[1]), exact_product(gamma[1], delta[0]))});
         continue;
@@ -159,23 +158,42 @@ Waves product(const Waves& x, const Waves& y) {
   return result;
 }
 
-std::optional<int> power_of_length(const Waves& x) {
+Waves length_wave(int value) {
+  return {{Wave{{}, 0, 0, {}, 0, {{value, 1}}}, {kExactUnit, 0}}};
+}
+
+std::optional<Wave> product_of_lengths(const Waves& x) {
   if (x.size() != 1) {
     return std::nullopt;
   }
   const auto& [wave, gamma] = *x.begin();
-  const bool is_length = wave == Wave{{}, wave.length, 0, {}} && wave.length > 0 && gamma[0] == kExactUnit;
-  return is_length ? std::optional<int>(wave.length) : std::nullopt;
+  const bool is_product = wave == Wave{{}, wave.length, 0, {}, 0, wave.lengths} && gamma[0] == kExactUnit &&
+                          (wave.length > 0 || (wave.length == 0 && !wave.lengths.empty()));
+  return is_product ? std::optional(wave) : std::nullopt;
 }
 
-Waves divided_by_length(const Waves& x, int power) {
-  Waves result;
-  for (const auto& [wave, gamma] : x) {
-    Wave less = wave;
-    less.length -= power;
-    add_wave(result, std::move(less), gamma);
+Wave reciprocal(const Wave& wave) {
+  Wave result = wave;
+  result.length = -wave.length;
+  for (auto& length : result.lengths) {
+    length.second = -length.second;
   }
   return result;
+}
+
+std::optional<Wave> root(const Wave& wave) {
+  Wave result = wave;
+  bool is_even = wave.length % 2 == 0;
+  result.length /= 2;
+  for (auto& length : result.lengths) {
+    is_even = is_even && length.second % 2 == 0;
+    length.second /= 2;
+  }
+  return is_even ? std::optional(result) : std::nullopt;
+}
+
+Waves times(const Waves& x, const Wave& wave) {
+  return product(x, {{wave, {kExactUnit, 0}}});
 }
 
 std::string name_of(const Waves& x) {

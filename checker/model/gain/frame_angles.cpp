@@ -25,33 +25,62 @@ Ball remainder_of_direction(const Ball& u, const Ball& v, const Ball& room) {
 
 }  // namespace
 
+std::array<int, 2> LinearFrame::relative_to_direction(int y, int x) {
+  const LinearValue imaginary = at(y);
+  const LinearValue real = at(x);
+  require_plain(imaginary);
+  require_plain(real);
+  const Ball of_y = base(imaginary);
+  const Ball of_x = base(real);
+  const Ball squares = square(of_y) + square(of_x);
+  LinearValue along;
+  add_deviations(along, real, of_x / squares);
+  add_deviations(along, imaginary, of_y / squares);
+  LinearValue across;
+  add_deviations(across, imaginary, of_x / squares);
+  add_deviations(across, real, -(of_y / squares));
+  const std::string of = std::to_string(y) + " " + std::to_string(x);
+  return {made("along " + of, [&] { return along; }), made("across " + of, [&] { return across; })};
+}
+
 /// atan2 is that of the steady values plus that of 1 + u + i v, where u and v are what deviates along their
 /// direction and across it, relative to their length.
 int LinearFrame::direction(int y, int x) {
   return made("atan2 " + std::to_string(y) + " " + std::to_string(x), [&] {
-    const LinearValue imaginary = at(y);
-    const LinearValue real = at(x);
-    require_plain(imaginary);
-    require_plain(real);
-    const Ball of_y = base(imaginary);
-    const Ball of_x = base(real);
-    const Ball squares = square(of_y) + square(of_x);
-    LinearValue along;
-    add_deviations(along, real, of_x / squares);
-    add_deviations(along, imaginary, of_y / squares);
-    LinearValue across;
-    add_deviations(across, imaginary, of_x / squares);
-    add_deviations(across, real, -(of_y / squares));
-    LinearValue result = across;
-    result.constant = arctangent2(of_y, of_x);
-    if (!along.deviations.empty() || !across.deviations.empty()) {
-      const std::string of = std::to_string(y) + " " + std::to_string(x);
-      const int u = made("along " + of, [&] { return along; });
-      const int v = made("across " + of, [&] { return across; });
+    const auto [u, v] = relative_to_direction(y, x);
+    LinearValue result = at(v);
+    result.constant = arctangent2(base(at(y)), base(at(x)));
+    if (!at(u).deviations.empty() || !at(v).deviations.empty()) {
       const Ball room = pi() - abs(result.constant);
       const std::size_t source = add_input({nullptr, {u, v}, [room](const std::vector<Ball>& bounds) {
                                               return remainder_of_direction(bounds.at(0), bounds.at(1), room);
                                             }});
+      result.deviations[source] = {one, zero};
+    }
+    return result;
+  });
+}
+
+/// The length is L |1 + u + i v|, with L = x + (L - x) in the steady state.
+int LinearFrame::length(int y, int x) {
+  return made("length " + std::to_string(y) + " " + std::to_string(x), [&] {
+    const LinearValue real = at(x);
+    const Ball of_x = base(real);
+    const Ball whole = sqrt(square(base(at(y))) + square(of_x));
+    if (!certainly_positive(of_x)) {
+      throw NotCovered("a vector that may be turned back");
+    }
+    const auto [u, v] = relative_to_direction(y, x);
+    LinearValue result;
+    result.constant = real.constant + (whole - of_x);
+    result.per_frequency = real.per_frequency;
+    add_deviations(result, at(u), whole);
+    if (!at(u).deviations.empty() || !at(v).deviations.empty()) {
+      const std::size_t source =
+          add_input({nullptr, {u, v}, [whole = whole.upper()](const std::vector<Ball>& bounds) {
+                       const Ball nearest = one - bounds.at(0);
+                       return whole * (sqrt(square(nearest) + square(bounds.at(1))) - nearest);
+                     }});
       result.deviations[source] = {one, zero};
     }
     return result;

@@ -32,9 +32,23 @@ FrameValue FrameValue::state(std::size_t index, const LinearValue& value) {
   return FrameValue(Linear{frame().state(index, value)});
 }
 
-std::array<FrameValue, 2> FrameValue::vector(std::size_t state, const LinearValue& angle) {
+std::array<FrameValue, 2> FrameValue::vector(
+    std::size_t state, const LinearValue& angle,
+    const std::optional<std::pair<std::size_t, LinearValue>>& length) {
   const int number = frame().state(state, angle);
-  return {FrameValue(vector_waves(state, number, 0)), FrameValue(vector_waves(state, number, 1))};
+  const int of = length ? frame().state(length->first, length->second) : -1 - static_cast<int>(state);
+  return {FrameValue(vector_waves(of, number, 0)), FrameValue(vector_waves(of, number, 1))};
+}
+
+std::array<int, 2> FrameValue::polar(const FrameValue& real, const FrameValue& imaginary,
+                                     const LinearValue& steady_angle, std::size_t state) {
+  const int steady = frame().made("steady angle " + std::to_string(state), [&] { return steady_angle; });
+  const FrameValue cosine(cosine_wave(steady));
+  const FrameValue sine(sine_wave(steady));
+  const FrameValue along = real * cosine + imaginary * sine;
+  const FrameValue across = imaginary * cosine - real * sine;
+  const int turned = arctangent2(across, along).linear();
+  return {frame().modulo_turn(frame().sum(steady, turned)), frame().length(across.linear(), along.linear())};
 }
 
 int FrameValue::direction(const FrameValue& real, const FrameValue& imaginary) {

@@ -21,11 +21,16 @@ class FrameValue {
   /// A constant by its place (ModelRecursion).
   static FrameValue constant(const Ball& value, std::size_t place);
   static FrameValue state(std::size_t index, const LinearValue& value);
-  /// The two parts of a vector of any length, whose real part is this state and whose angle is this value.
-  static std::array<FrameValue, 2> vector(std::size_t state, const LinearValue& angle);
+  /// The two parts of a vector whose real part is this state and whose angle is this value; of this length in
+  /// the state that is its imaginary part, or of any.
+  static std::array<FrameValue, 2> vector(std::size_t state, const LinearValue& angle,
+                                          const std::optional<std::pair<std::size_t, LinearValue>>& length);
   /// The number of the angle of a vector, modulo a turn. Its length is certainly positive where noise is
   /// below every amplitude, and depends on that of no vector before. Throws NotCovered.
   static int direction(const FrameValue& real, const FrameValue& imaginary);
+  /// The numbers of the angle, modulo a turn, and the length of a vector near this angle. Throws NotCovered.
+  static std::array<int, 2> polar(const FrameValue& real, const FrameValue& imaginary,
+                                  const LinearValue& steady_angle, std::size_t state);
   static FrameValue sample(std::size_t channel) { return FrameValue(sample_waves(channel)); }
 
   static FrameValue sample_of_one() { return FrameValue(sample_of_one_channel()); }

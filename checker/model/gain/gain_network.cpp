@@ -95,12 +95,21 @@ LinearValue deviating(const SteadyState& steady, std::size_t state, bool is_angl
   return {steady.turns, steady.constant, steady.per_frequency, {{state, {one, zero}}}, is_angle};
 }
 
+/// Of the imaginary part of a vector: the length of the vector is in its place.
+bool has_length(const SteadyState& rest) {
+  return !certainly_equal(rest.constant, zero) || !certainly_equal(rest.per_frequency, zero);
+}
+
 std::vector<FrameValue> frame_states(const std::vector<SteadyState>& steady,
                                      const std::vector<bool>& is_angle) {
   std::vector<std::optional<FrameValue>> values(steady.size());
   for (std::size_t i = 0; i < steady.size(); ++i) {
     if (steady[i].imaginary) {
-      const auto parts = FrameValue::vector(i, deviating(steady[i], i, true));
+      const std::size_t other = *steady[i].imaginary;
+      const auto length = has_length(steady[other])
+                              ? std::optional(std::pair(other, deviating(steady[other], other, false)))
+                              : std::nullopt;
+      const auto parts = FrameValue::vector(i, deviating(steady[i], i, true), length);
       values[i] = parts[0];
       values[*steady[i].imaginary] = parts[1];
     }
@@ -116,7 +125,7 @@ std::vector<FrameValue> frame_states(const std::vector<SteadyState>& steady,
 }
 
 /// Two states each, no angles, in no other vector, and at the start as the steady state is: a length that is
-/// not known says nothing of how far an angle is off.
+/// not known says nothing of how far an angle is off. A length that is known is positive.
 void require_vectors(const std::vector<SteadyState>& steady, const std::vector<bool>& is_angle,
                      const ModelDesign& design, std::size_t samples) {
   std::vector<bool> is_part(steady.size(), false);
@@ -138,19 +147,31 @@ void require_vectors(const std::vector<SteadyState>& steady, const std::vector<b
       is_part[part] = true;
     }
     const SteadyState& rest = steady[other];
-    if (rest.turns != 0 || rest.imaginary || !certainly_equal(rest.constant, zero) ||
-        !certainly_equal(rest.per_frequency, zero)) {
+    const Ball length = rest.constant + rest.per_frequency * Ball::hull(design.lowest, design.highest);
+    if (rest.turns != 0 || rest.imaginary || (has_length(rest) && !certainly_positive(length))) {
       throw NotCovered("the imaginary part of a vector has a steady state of its own");
     }
   }
 }
 
-/// The numbers of the next states; of a vector, of its angle, and 0: what is left of its imaginary part.
+/// The numbers of the next states; of a vector, of its angle, and of its length or 0: what is left of its
+/// imaginary part.
 std::vector<int> next_numbers(LinearFrame& frame, const std::vector<FrameValue>& values,
                               const std::vector<SteadyState>& steady) {
   std::vector<std::optional<int>> numbers(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (const auto& imaginary = steady[i].imaginary) {
+      if (has_length(steady[*imaginary])) {
+        LinearValue angle{steady[i].turns,
+                          steady[i].constant,
+                          steady[i].per_frequency + Ball(static_cast<double>(steady[i].turns)),
+                          {},
+                          false};
+        const auto parts = FrameValue::polar(values[i], values[*imaginary], angle, i);
+        numbers[i] = parts[0];
+        numbers[*imaginary] = parts[1];
+        continue;
+      }
       numbers[i] = FrameValue::direction(values[i], values[*imaginary]);
       numbers[*imaginary] = frame.number(zero);
     }

@@ -183,7 +183,12 @@ LinearValue LinearFrame::product_of_plain(int x, int y) {
   const Ball of_left = base(left);
   const Ball of_right = base(right);
   LinearValue result;
-  result.constant = product_of_ends(of_left, of_right, x == y);
+  if (certainly_equal(left.per_frequency, zero) || certainly_equal(right.per_frequency, zero)) {
+    result.constant = left.constant * right.constant;
+    result.per_frequency = left.per_frequency * right.constant + right.per_frequency * left.constant;
+  } else {
+    result.constant = product_of_ends(of_left, of_right, x == y);
+  }
   add_deviations(result, left, of_right);
   add_deviations(result, right, of_left);
   if (!left.deviations.empty() && !right.deviations.empty()) {

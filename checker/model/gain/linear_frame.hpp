@@ -3,6 +3,7 @@
 // is made once, so that a value is known by its number.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -84,6 +85,8 @@ class LinearFrame {
   int function(const std::string& name, int x);
   /// atan2 of y and x, off its cut.
   int direction(int y, int x);
+  /// The root of x^2 + y^2, near a positive x.
+  int length(int y, int x);
   int stays_within(int x, int low, int high);
   /// Whether its steady value is above 0: that it stays so is a limit.
   bool stays_positive(int x);
@@ -131,6 +134,8 @@ class LinearFrame {
   void limit(int x, const Ball& low, const Ball& high);
   [[nodiscard]] LinearValue scaled(const LinearValue& x, int constant) const;
   [[nodiscard]] LinearValue product_of_plain(int x, int y);
+  /// What deviates along the direction of x + j y and across it, relative to its length.
+  [[nodiscard]] std::array<int, 2> relative_to_direction(int y, int x);
   void note_distance(const Ball& distance);
   [[nodiscard]] int difference(int x, int y) { return sum(x, negated(y)); }
   [[nodiscard]] LinearValue value_of_function(const std::string& name, int x);

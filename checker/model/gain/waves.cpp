@@ -110,8 +110,8 @@ Waves constant_wave(const ConstantFactors& constant) {
   return result;
 }
 
-Waves vector_waves(std::size_t state, int angle, int part) {
-  const Wave wave{{}, 0, 0, {{angle, 1}}, 0, {{-1 - static_cast<int>(state), 1}}};
+Waves vector_waves(int length, int angle, int part) {
+  const Wave wave{{}, 0, 0, {{angle, 1}}, 0, {{length, 1}}};
   return {{wave, part == 0 ? std::array<std::int64_t, 2>{kExactUnit, 0}
                            : std::array<std::int64_t, 2>{0, kExactUnit}}};
 }

@@ -47,8 +47,8 @@ Waves sample_of_one_channel();
 Waves cosine_wave(int value);
 Waves sine_wave(int value);
 Waves constant_wave(const ConstantFactors& constant);
-/// The real (0) or the imaginary (1) part of the vector whose real part is this state, at this angle.
-Waves vector_waves(std::size_t state, int angle, int part);
+/// The real (0) or the imaginary (1) part of a vector at this angle, with this length.
+Waves vector_waves(int length, int angle, int part);
 /// A linear value as a factor.
 Waves length_wave(int value);
 

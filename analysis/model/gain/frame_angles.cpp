@@ -87,6 +87,22 @@ FrameLine Frame::direction_of(const FrameValue& real, const FrameValue& imaginar
   return FrameRules::whole_angle(*this, pattern);
 }
 
+std::array<FrameLine, 2> Frame::polar_of(const FrameValue& real, const FrameValue& imaginary, int turns,
+                                         double constant, double per_frequency) {
+  FrameLine steady;
+  steady.turns = turns;
+  steady.constant = Interval(constant);
+  steady.per_frequency = Interval(per_frequency) + Interval(static_cast<double>(turns));
+  const FrameValue angle(this, names_++, steady);
+  const FrameValue cosine = cos(angle);
+  const FrameValue sine = sin(angle);
+  const FrameValue along = real * cosine + imaginary * sine;
+  const FrameValue across = imaginary * cosine - real * sine;
+  FrameLine turned = FrameRules::sum_of(steady, line_of(atan2(across, along)), false);
+  turned.is_modular = true;
+  return {std::move(turned), FrameRules::length_line(*this, line_of(across), line_of(along))};
+}
+
 namespace {
 
 FrameValue function(FrameOperation operation, const FrameValue& a) {

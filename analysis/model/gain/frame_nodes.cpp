@@ -382,34 +382,79 @@ FrameLine FrameRules::function_line(Frame& frame, FrameOperation operation, cons
   return line;
 }
 
-/// atan2(y, x), by what deviates along the steady direction and across it, relative to its length.
-FrameLine FrameRules::direction_line(Frame& frame, const FrameLine& y, const FrameLine& x) {
+namespace {
+
+/// A vector in its steady state, and what deviates along it and across it, relative to its length.
+struct DeviatingVector {
+  Interval y, x;
+  FrameLine along, across;
+};
+
+DeviatingVector deviating_vector(const FrameLine& y, const FrameLine& x, const Interval& band) {
   require_no_turns(y);
   require_no_turns(x);
-  const Interval base_y = base_of(y, frame.band_);
-  const Interval base_x = base_of(x, frame.band_);
-  const Interval squares = square(base_y) + square(base_x);
-  FrameLine line;
-  line.constant = rigor::atan2(base_y, base_x);
-  if (!rigor::is_finite(line.constant) || !rigor::certainly_less(Interval(0.0), squares)) {
+  DeviatingVector vector{base_of(y, band), base_of(x, band), {}, {}};
+  const Interval squares = square(vector.y) + square(vector.x);
+  if (!rigor::certainly_less(Interval(0.0), squares)) {
     throw NoFrame("the steady state is at the border of an operation");
   }
-  if (y.is_form_empty() && x.is_form_empty()) {
-    return line;
-  }
   const auto part_of = [](const FrameLine& of, const Interval& factor) {
-    return scaled(form_of(of), factor, std::nullopt);
+    return FrameRules::scaled(form_of(of), factor, std::nullopt);
   };
-  const FrameLine across = sum_of(part_of(y, base_x / squares), part_of(x, base_y / squares), true);
-  const FrameLine along = sum_of(part_of(x, base_x / squares), part_of(y, base_y / squares), false);
-  line = sum_of(line, across, false);
-  const auto u = static_cast<std::size_t>(add_form(frame, along));
-  const auto v = static_cast<std::size_t>(add_form(frame, across));
-  const Interval room = rigor::pi() - Interval(rigor::magnitude(line.constant));
-  const int input = add_input(frame, remainder("atan2", [u, v, room](const std::vector<double>& bounds) {
-                                return direction_remainder(bounds[u], bounds[v], room);
-                              }));
+  vector.across = FrameRules::sum_of(part_of(y, vector.x / squares), part_of(x, vector.y / squares), true);
+  vector.along = FrameRules::sum_of(part_of(x, vector.x / squares), part_of(y, vector.y / squares), false);
+  return vector;
+}
+
+/// Adds a remainder of this size at the bounds of both.
+void add_remainder(Frame& frame, const DeviatingVector& vector, const char* what, FrameLine& line,
+                   const std::function<double(double along, double across)>& size) {
+  if (vector.along.is_form_empty() && vector.across.is_form_empty()) {
+    return;
+  }
+  const auto u = static_cast<std::size_t>(FrameRules::add_form(frame, vector.along));
+  const auto v = static_cast<std::size_t>(FrameRules::add_form(frame, vector.across));
+  const int input =
+      FrameRules::add_input(frame, remainder(what, [u, v, size](const std::vector<double>& bounds) {
+                              return size(bounds[u], bounds[v]);
+                            }));
   add_component(line, input, Interval(1.0));
+}
+
+}  // namespace
+
+/// atan2(y, x).
+FrameLine FrameRules::direction_line(Frame& frame, const FrameLine& y, const FrameLine& x) {
+  const DeviatingVector vector = deviating_vector(y, x, frame.band_);
+  FrameLine line = vector.across;
+  line.constant = rigor::atan2(vector.y, vector.x);
+  if (!rigor::is_finite(line.constant)) {
+    throw NoFrame("the steady state is at the border of an operation");
+  }
+  const Interval room = rigor::pi() - Interval(rigor::magnitude(line.constant));
+  add_remainder(frame, vector, "atan2", line,
+                [room](double along, double across) { return direction_remainder(along, across, room); });
+  return line;
+}
+
+/// The length L |1 + u + i v| of a vector near the positive x axis, with L = x + (L - x) in the steady state.
+FrameLine FrameRules::length_line(Frame& frame, const FrameLine& y, const FrameLine& x) {
+  const DeviatingVector vector = deviating_vector(y, x, frame.band_);
+  const Interval whole = sqrt(square(vector.y) + square(vector.x));
+  if (!rigor::certainly_less(Interval(0.0), vector.x)) {
+    throw NoFrame("a vector that may be turned back");
+  }
+  FrameLine line = scaled(vector.along, whole, std::nullopt);
+  // L - x, without the width that both have in common.
+  const double excess = (square(vector.y) / (Interval(2.0) * Interval(vector.x.lower()))).upper();
+  line.constant = x.constant + Interval::from_bounds(0.0, excess);
+  line.per_frequency = x.per_frequency;
+  add_remainder(frame, vector, "the length of a vector", line,
+                [largest = whole.upper()](double along, double across) {
+                  const Interval nearest = Interval(1.0) - Interval(along);
+                  const Interval length = sqrt(square(nearest) + square(Interval(across)));
+                  return rigor::mul_up(largest, (length - nearest).upper());
+                });
   return line;
 }
 

@@ -83,6 +83,7 @@ struct FrameRules {
   static FrameLine product_line(Frame& frame, const FrameLine& a, const FrameLine& b, bool is_square);
   static FrameLine function_line(Frame& frame, FrameOperation operation, const FrameLine& operand);
   static FrameLine direction_line(Frame& frame, const FrameLine& y, const FrameLine& x);
+  static FrameLine length_line(Frame& frame, const FrameLine& y, const FrameLine& x);
 
   // Angles, and division (frame_angles.cpp).
   static void keep_angle(Frame& frame, int name, const FrameLine& line);

@@ -298,12 +298,17 @@ FrameValue Frame::state(int state, bool is_angle, int turns, double constant, do
   return {this, FrameRules::named(*this, FrameOperation::state, state), std::move(line)};
 }
 
-std::array<FrameValue, 2> Frame::vector(int real, int turns, double constant, double per_frequency) {
+std::array<FrameValue, 2> Frame::vector(int real, int turns, double constant, double per_frequency,
+                                        const FrameValue& length) {
+  const int of = length.is_constant() ? -1 - real : length.name();
+  if (of >= 0) {
+    lengths_.try_emplace(of, length.line());
+  }
   const FrameValue angle = state(real, true, turns, constant, per_frequency);
   FrameRules::keep_angle(*this, angle.name(), angle.line());
   const auto part = [&](int which) {
     Waves waves;
-    FrameRules::add_wave(waves, {0, 0, 0, {{angle.name(), 1}}, {}, {{-1 - real, 1}}},
+    FrameRules::add_wave(waves, {0, 0, 0, {{angle.name(), 1}}, {}, {{of, 1}}},
                          {which == 0 ? 1.0 : 0.0, which == 0 ? 0.0 : 1.0});
     return FrameValue(this, FrameRules::named(*this, FrameOperation::vector, real, which),
                       FrameValue::Kind::waves, std::move(waves));

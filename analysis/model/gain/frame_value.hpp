@@ -153,12 +153,17 @@ class Frame {
   [[nodiscard]] FrameValue state(int state, bool is_angle, int turns, double constant, double per_frequency);
   /// The real (0) or imaginary (1) part of a sample at the phase phi + omega; of one channel the sample.
   [[nodiscard]] FrameValue sample(int channel);
-  /// States that are the two parts of a vector of any length: its angle is turns phi + constant +
-  /// per_frequency omega + the deviation of state number `real`.
-  [[nodiscard]] std::array<FrameValue, 2> vector(int real, int turns, double constant, double per_frequency);
+  /// States that are the two parts of a vector: its angle is turns phi + constant + per_frequency omega + the
+  /// deviation of state number `real`. Its length is this value, or any where that is an exact constant.
+  [[nodiscard]] std::array<FrameValue, 2> vector(int real, int turns, double constant, double per_frequency,
+                                                 const FrameValue& length);
   /// The angle of a vector with these two parts, up to whole turns, where its length is certainly positive
   /// and depends on that of no vector before. Throws NoFrame.
   [[nodiscard]] FrameLine direction_of(const FrameValue& real, const FrameValue& imaginary);
+  /// The angle of a vector, up to whole turns, and its length, near turns (phi + omega) + constant +
+  /// per_frequency omega. Throws NoFrame.
+  [[nodiscard]] std::array<FrameLine, 2> polar_of(const FrameValue& real, const FrameValue& imaginary,
+                                                  int turns, double constant, double per_frequency);
   /// A linear value equal to this one. Throws NoFrame where it depends on the phase.
   [[nodiscard]] FrameLine line_of(const FrameValue& value);
 

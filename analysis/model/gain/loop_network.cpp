@@ -39,6 +39,15 @@ Interval weight_of(const FrameLine& line, int component) {
   return found == line.inputs.end() ? Interval(0.0) : found->second;
 }
 
+}  // namespace
+
+bool has_length(const SteadyValue& vector, const std::vector<SteadyValue>& steady) {
+  const SteadyValue& rest = steady.at(*vector.imaginary);
+  return rest.constant != 0.0 || rest.per_frequency != 0.0;
+}
+
+namespace {
+
 class Assembly {
  public:
   Assembly(const TrackerModel& tracker, const std::vector<SteadyValue>& steady, const Interval& band)
@@ -95,9 +104,20 @@ class Assembly {
     next_.resize(states_);
     std::vector<bool> is_part(states_, false);
     for (std::size_t i = 0; i < states_; ++i) {
-      if (const auto& imaginary = (*steady_)[i].imaginary) {
-        next_[i] = frame_.direction_of(results[i], results[*imaginary]);
-        is_part[i] = is_part[*imaginary] = true;  // what is left of the other part does not matter
+      const SteadyValue& each = (*steady_)[i];
+      if (!each.imaginary) {
+        continue;
+      }
+      const std::size_t other = *each.imaginary;
+      is_part[i] = is_part[other] = true;
+      if (has_length(each, *steady_)) {
+        const auto both =
+            frame_.polar_of(results[i], results[other], each.turns, each.constant, each.per_frequency);
+        next_[i] = both[0];
+        next_[other] = both[1];
+      } else {
+        next_[i] = frame_.direction_of(results[i],
+                                       results[other]);  // what is left of the other part does not matter
       }
     }
     for (std::size_t i = 0; i < states_; ++i) {
@@ -110,7 +130,13 @@ class Assembly {
     for (std::size_t i = 0; i < states_; ++i) {
       const SteadyValue& each = (*steady_)[i];
       if (each.imaginary) {
-        const auto both = frame_.vector(static_cast<int>(i), each.turns, each.constant, each.per_frequency);
+        const SteadyValue& rest = (*steady_)[*each.imaginary];
+        const FrameValue length =
+            has_length(each, *steady_)
+                ? frame_.state(static_cast<int>(*each.imaginary), false, 0, rest.constant, rest.per_frequency)
+                : FrameValue(1);
+        const auto both =
+            frame_.vector(static_cast<int>(i), each.turns, each.constant, each.per_frequency, length);
         parts[i] = both[0];
         parts[*each.imaginary] = both[1];
       }

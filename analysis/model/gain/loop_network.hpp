@@ -14,14 +14,17 @@
 namespace veritrack::model {
 
 /// The state at the phase phi and the frequency omega: turns phi + constant + per_frequency omega. With
-/// `imaginary` it is the real part of a vector of any length with this angle, and the state of that number
-/// its imaginary part.
+/// `imaginary` it is the real part of a vector with this angle, and the state of that number its imaginary
+/// part, in whose place is the length of the vector, or 0 where it may have any.
 struct SteadyValue {
   int turns = 0;
   double constant = 0.0;
   double per_frequency = 0.0;
   std::optional<std::size_t> imaginary = std::nullopt;
 };
+
+/// Whether the length of a vector is known.
+[[nodiscard]] bool has_length(const SteadyValue& vector, const std::vector<SteadyValue>& steady);
 
 /// An input of the network.
 struct NetworkInput {

@@ -20,6 +20,7 @@ std::vector<SteadyValue> form_of_steady_state(const TrackerModel& tracker,
   if (vector) {
     steady[vector->real].turns = vector->turns;
     steady[vector->real].imaginary = vector->imaginary;
+    steady[vector->imaginary].constant = vector->has_length ? 1.0 : 0.0;
   }
   return steady;
 }
@@ -37,8 +38,10 @@ std::optional<Eigen::VectorXd> steady_at(const TrackerModel& tracker, std::vecto
   for (Eigen::Index i = 0; i < n; ++i) {
     if (const auto& imaginary = steady[static_cast<std::size_t>(i)].imaginary) {
       const auto other = static_cast<Eigen::Index>(*imaginary);
+      const double length = std::hypot(state(i), state(other));
+      const bool has_length = model::has_length(steady[static_cast<std::size_t>(i)], steady);
       state(i) = std::atan2(state(other), state(i));
-      state(other) = 0.0;
+      state(other) = has_length ? length : 0.0;
     }
   }
   double last = INFINITY;
@@ -106,9 +109,11 @@ Eigen::VectorXd state_with(const std::vector<SteadyValue>& steady, const Eigen::
   for (std::size_t i = 0; i < steady.size(); ++i) {
     if (steady[i].imaginary) {
       const auto place = static_cast<Eigen::Index>(i);
+      const auto other = static_cast<Eigen::Index>(*steady[i].imaginary);
       const double angle = state(place);
-      state(place) = lengths(place) * std::cos(angle);
-      state(static_cast<Eigen::Index>(*steady[i].imaginary)) = lengths(place) * std::sin(angle);
+      const double length = has_length(steady[i], steady) ? state(other) : lengths(place);
+      state(place) = length * std::cos(angle);
+      state(other) = length * std::sin(angle);
     }
   }
   return state;
@@ -146,13 +151,18 @@ std::vector<ProposedVector> possible_vectors(const TrackerModel& tracker) {
       }
     }
   }
+  const std::size_t count = vectors.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    vectors.push_back(vectors[k]);
+    vectors.back().has_length = true;
+  }
   return vectors;
 }
 
 std::optional<ProposedVector> vector_of(const std::vector<SteadyValue>& steady) {
   for (std::size_t i = 0; i < steady.size(); ++i) {
     if (steady[i].imaginary) {
-      return ProposedVector{i, *steady[i].imaginary, steady[i].turns};
+      return ProposedVector{i, *steady[i].imaginary, steady[i].turns, has_length(steady[i], steady)};
     }
   }
   return std::nullopt;
@@ -193,8 +203,11 @@ Eigen::VectorXd state_per_frequency(const TrackedTone& tone, const std::vector<S
       const auto real = static_cast<Eigen::Index>(i);
       const auto imaginary = static_cast<Eigen::Index>(*steady[i].imaginary);
       const double rate = change(real);
-      change(real) = -rate * state(imaginary);
-      change(imaginary) = rate * state(real);
+      // The length grows by this share of it.
+      const double growth =
+          has_length(steady[i], steady) ? change(imaginary) / std::hypot(state(real), state(imaginary)) : 0.0;
+      change(real) = growth * state(real) - rate * state(imaginary);
+      change(imaginary) = growth * state(imaginary) + rate * state(real);
     }
   }
   return change;

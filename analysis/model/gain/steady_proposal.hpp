@@ -9,10 +9,12 @@
 
 namespace veritrack::model {
 
-/// Two states that may be the parts of a vector whose direction alone matters, with the turns of its angle.
+/// Two states that may be the parts of a vector, with the turns of its angle. Its direction alone matters, or
+/// its length does.
 struct ProposedVector {
   std::size_t real = 0, imaginary = 0;
   int turns = 1;
+  bool has_length = false;
 };
 
 /// With two channels, every pair of states that are no angles; else none.

@@ -71,6 +71,11 @@ std::string steady_text(const model::SteadyValue& each) {
   return value.empty() ? "0" : value;
 }
 
+/// As a factor, with a space after it.
+std::string factor_text(const std::string& value) {
+  return value == "1" ? "" : value.find(' ') == std::string::npos ? value + " " : "(" + value + ") ";
+}
+
 std::string steady_state_table(const model::GainProof& proof, const Model& model) {
   std::vector<std::string> texts;
   for (const model::SteadyValue& each : proof.steady) {
@@ -79,14 +84,24 @@ std::string steady_state_table(const model::GainProof& proof, const Model& model
   std::string note;
   if (const auto vector = model::vector_of(proof.steady)) {
     const std::string angle = texts[vector->real];
-    texts[vector->real] = "R cos(" + angle + ")";
-    texts[vector->imaginary] = "R sin(" + angle + ")";
-    note = fmt::format(
-        "\nR is any length above 0: of `{0}` and `{1}` the step takes the direction alone, so both "
-        "are one angle here. An error of their length is gone after a sample. To start in the steady state, "
-        "or in it but for other states, they point in this direction. A start with both at 0 has no "
-        "direction, and is not covered.\n",
-        model.states[vector->real], model.states[vector->imaginary]);
+    const std::string length = vector->has_length ? factor_text(texts[vector->imaginary]) : "R ";
+    texts[vector->real] = length + "cos(" + angle + ")";
+    texts[vector->imaginary] = length + "sin(" + angle + ")";
+    note =
+        vector->has_length
+            ? fmt::format(
+                  "\n`{0}` and `{1}` are the two parts of a vector that turns with the signal: their errors "
+                  "are those of its "
+                  "angle and of its length.\n",
+                  model.states[vector->real], model.states[vector->imaginary])
+            : fmt::format(
+                  "\nR is any length above 0: of `{0}` and `{1}` the step takes the direction alone, so both "
+                  "are one angle here. An error of their length is gone after a sample. To start in the "
+                  "steady state, "
+                  "or in it but for other states, they point in this direction. A start with both at 0 has "
+                  "no "
+                  "direction, and is not covered.\n",
+                  model.states[vector->real], model.states[vector->imaginary]);
   }
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < texts.size(); ++i) {

@@ -301,10 +301,87 @@ TEST_CASE("constants with the same enclosure are not the same number") {
   CHECK_NOTHROW((void)frame.line_of(k * (y2 * cos(theta)) - k * (y1 * sin(theta))));
 }
 
+/// What the next vector of an observer is: turned by w, and a share of the samples.
+template <typename Scalar>
+std::array<Scalar, 2> observed(const std::array<Scalar, 2>& p, const Scalar& w, const Scalar& y1,
+                               const Scalar& y2, const Scalar& k, const Scalar& one) {
+  const Scalar x1 = p[0] * cos(w) - p[1] * sin(w);
+  const Scalar x2 = p[0] * sin(w) + p[1] * cos(w);
+  const Scalar gain = k / (one + w);  // a factor that is no constant
+  return {x1 + gain * (y1 - x1), x2 + gain * (y2 - x2)};
+}
+
+TEST_CASE("a vector whose length matters stays within the lines of its angle and its length") {
+  const rigor::UpwardRounding upward;
+  constexpr double kOmega = 0.2, kDeviation = 0.15, kNoise = 0.2;
+  Frame frame(Interval(kAmplitude), Interval::from_bounds(kOmega, kOmega + 1e-7), 3);
+  const FrameValue length = frame.state(1, false, 0, 1.1, 0.2);
+  const FrameValue w = frame.state(2, false, 0, 0.0, 1.0);
+  const auto next = observed<FrameValue>(frame.vector(0, 1, 0.1, 0.5, length), w, frame.sample(0),
+                                         frame.sample(1), frame.constant(0, Interval(kK)), FrameValue(1));
+  const auto lines = frame.polar_of(next[0], next[1], 1, 0.1, 0.5);
+  CHECK(lines[0].turns == 1);
+  CHECK(lines[0].is_modular);
+  CHECK(lines[1].turns == 0);
+  const std::vector<double> sizes = sizes_of(frame, kDeviation, kNoise);
+  test::Random random(37005);
+  for (std::int64_t trial = 0; trial < test::effort(1000); ++trial) {
+    const double phi = random.uniform(0.0, 6.0);
+    std::array<double, 3> off{};
+    for (double& each : off) {
+      each = kDeviation * random.uniform(-1.0, 1.0);
+    }
+    const std::complex<double> p = std::polar(1.1 + 0.2 * kOmega + off[1], phi + 0.1 + 0.5 * kOmega + off[0]);
+    const std::complex<double> y = std::polar(kAmplitude, phi + kOmega) +
+                                   std::polar(kNoise * std::sqrt(random.uniform()), random.uniform(0.0, 7.0));
+    const auto after = observed<double>({p.real(), p.imag()}, kOmega + off[2], y.real(), y.imag(), kK, 1.0);
+    const std::complex<double> made(after[0], after[1]);
+    for (std::size_t part = 0; part < 2; ++part) {
+      const FrameLine& line = lines[part];
+      double linear =
+          line.turns * phi + rigor::midpoint(line.constant) + rigor::midpoint(line.per_frequency) * kOmega;
+      for (std::size_t i = 0; i < 3; ++i) {
+        linear += rigor::midpoint(line.states[i]) * off[i];
+      }
+      double room = 1e-6;
+      for (const auto& [component, each] : line.inputs) {
+        room += rigor::magnitude(each) * sizes[static_cast<std::size_t>(component)];
+      }
+      const double error = part == 0 ? std::remainder(std::arg(made) - linear, 2.0 * std::numbers::pi)
+                                     : std::abs(made) - linear;
+      CHECK(std::fabs(error) <= room);
+      CHECK(room < 1.0);  // or nothing was shown
+    }
+  }
+  CHECK_THROWS_AS((void)frame.polar_of(frame.sample(0), FrameValue(-1) * frame.sample(1), 1, 0.1, 0.5),
+                  NoFrame);
+  CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], 0, 0.1, 0.5), NoFrame);  // it turns
+  CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], 1, 3.1, 0.5), NoFrame);  // it points backwards
+}
+
+TEST_CASE("a factor that may be 0 is not divided by, and its root is not taken") {
+  const auto is_known = [](double least) {
+    const rigor::UpwardRounding upward;
+    Frame frame(Interval(kAmplitude), Interval(0.2), 1);
+    const FrameValue g = frame.state(0, false, 0, least, 0.0);
+    const FrameValue y1 = g * frame.sample(0);
+    const FrameValue y2 = g * frame.sample(1);
+    try {
+      (void)frame.line_of(sqrt(y1 * y1 + y2 * y2));
+      return frame.limits().size() == 1 && frame.limits()[0].room <= least;
+    } catch (const NoFrame&) {
+      return false;
+    }
+  };
+  CHECK(is_known(0.5));
+  CHECK_FALSE(is_known(0.0));
+  CHECK_FALSE(is_known(-0.5));
+}
+
 TEST_CASE("of a vector of states the angle is known, up to whole turns, and its length nowhere") {
   const rigor::UpwardRounding upward;
   Frame frame(Interval(kAmplitude), Interval::from_bounds(0.2, 0.3), 3);
-  const auto [p, r] = frame.vector(1, 1, 0.5, 0.0);
+  const auto [p, r] = frame.vector(1, 1, 0.5, 0.0, FrameValue(1));
   const FrameValue y1 = frame.sample(0);
   const FrameValue y2 = frame.sample(1);
   // arg(y conj p) = omega - 0.5 - xi + the angle of noise

@@ -7,11 +7,12 @@ namespace veritrack::quadrature {
 namespace {
 
 using rigor::Interval;
-using Block = BlockCovariance<Interval>;
-using Design = trackers::ToneModel<Interval>;
+using IntervalBlock = BlockCovariance<Interval>;
+using IntervalDesign = trackers::ToneModel<Interval>;
 
 /// sign * (P - U Phi U') as a lower triangle, U the turn with this tangent (and positive cosine).
-rigor::LowerTriangle<3> difference(const Block& p, const Block& phi, const Interval& tangent, double sign) {
+rigor::LowerTriangle<3> difference(const IntervalBlock& p, const IntervalBlock& phi, const Interval& tangent,
+                                   double sign) {
   const Interval one(1.0);
   const Interval cosine_squared = one / (one + rigor::square(tangent));
   const Interval sine_squared = rigor::square(tangent) * cosine_squared;
@@ -30,7 +31,8 @@ rigor::LowerTriangle<3> difference(const Block& p, const Block& phi, const Inter
 
 class OrderCheck {
  public:
-  OrderCheck(const Block& lower, const Block& upper, const Design& design, const Interval& room)
+  OrderCheck(const IntervalBlock& lower, const IntervalBlock& upper, const IntervalDesign& design,
+             const Interval& room)
       : lower_(lower),
         upper_(upper),
         least_(scaled(lower, Interval(1.0) + room)),
@@ -40,8 +42,8 @@ class OrderCheck {
   /// The turns by -angle mirror those by angle: with J = diag(1, -1, -1), J U(angle) J = U(-angle), and J
   /// leaves block covariances alone. So only non-negative tangents need to be looked at.
   bool keeps(const Interval& rho, const Interval& tangent, int depth) const {
-    const Block low = riccati_update(lower_, rho, design_).filtered;
-    const Block high = riccati_update(upper_, rho, design_).filtered;
+    const IntervalBlock low = riccati_update(lower_, rho, design_).filtered;
+    const IntervalBlock high = riccati_update(upper_, rho, design_).filtered;
     if (rigor::certainly_positive_definite(difference(least_, low, tangent, -1.0)) &&
         rigor::certainly_positive_definite(difference(most_, high, tangent, 1.0))) {
       return true;
@@ -61,19 +63,19 @@ class OrderCheck {
   }
 
  private:
-  static Block scaled(const Block& p, const Interval& factor) {
+  static IntervalBlock scaled(const IntervalBlock& p, const Interval& factor) {
     return {factor * p.p11, factor * p.p22, factor * p.p23, factor * p.p33};
   }
 
-  Block lower_, upper_;
-  Block least_, most_;  ///< between which the images must be
-  Design design_;
+  IntervalBlock lower_, upper_;
+  IntervalBlock least_, most_;  ///< between which the images must be
+  IntervalDesign design_;
 };
 
 }  // namespace
 
-bool certainly_keeps_covariance_between(const Block& lower, const Block& upper, const Design& design,
-                                        const std::vector<TurnBound>& turns,
+bool certainly_keeps_covariance_between(const IntervalBlock& lower, const IntervalBlock& upper,
+                                        const IntervalDesign& design, const std::vector<TurnBound>& turns,
                                         double room VERITRACK_DECLARED_CALL_SITE) {
   VERITRACK_MUTANT_RETURNS(true)
   constexpr int kDepth = 12;

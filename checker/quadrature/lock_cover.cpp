@@ -16,7 +16,7 @@ namespace veritrack::checker {
 namespace {
 
 constexpr std::int64_t kMostCellsInPart = 200'000;
-constexpr int kDepth = 48;
+constexpr int kCoverDepth = 48;
 constexpr unsigned kMostThreads = 64;
 constexpr std::array<int, 4> kParts{4, 4, 4, 4};
 
@@ -130,7 +130,7 @@ class Workers {
   void work() {
     for (std::size_t k = next_++; k < parts_.size() && !stopped_; k = next_++) {
       try {
-        parts_[k].proved = is_proved(inequality_, parts_[k].cell, kDepth, parts_[k].cells);
+        parts_[k].proved = is_proved(inequality_, parts_[k].cell, kCoverDepth, parts_[k].cells);
         stopped_ = stopped_ || !parts_[k].proved;
       } catch (...) {
         if (!stopped_.exchange(true)) {

@@ -22,7 +22,7 @@ using PolarState = trackers::PolarFrameState<double>;
 using Input = trackers::PolarInput<double>;
 
 constexpr std::size_t kShortest = 30;
-constexpr std::size_t kLongest = 300;
+constexpr std::size_t kLongestShown = 300;
 
 /// The tracker, its signal, and the admissible disturbances.
 struct Loop {
@@ -88,7 +88,7 @@ std::vector<PolarState> corners(const quadrature::StartBox& box, const rigor::Ma
 std::vector<double> bound_from(quadrature::CertifiedLevel level) {
   std::vector<double> bound;
   const double settled = 2.0 * level.ultimate_frequency_error();
-  while (bound.size() < kLongest && !(bound.size() >= kShortest && settled > 0.0 && level.settled(settled))) {
+  while (bound.size() < kLongestShown && !(bound.size() >= kShortest && settled > 0.0 && level.settled(settled))) {
     bound.push_back(level.frequency_error());
     level.step();
   }
@@ -122,7 +122,7 @@ std::optional<FrequencyErrorBounds> frequency_error_bounds(const Certificate& ce
         return std::nullopt;
       }
       tube.bound = quadrature_particulars(certificate).followed_starts->frequency_errors;
-      tube.bound.resize(std::min(tube.bound.size(), kLongest));
+      tube.bound.resize(std::min(tube.bound.size(), kLongestShown));
       starts = corners(quadrature::assumed_starts(question), rigor::midpoint(problem->initial_covariance));
     } else {
       tube.bound = bound_from(

@@ -88,7 +88,8 @@ std::vector<PolarState> corners(const quadrature::StartBox& box, const rigor::Ma
 std::vector<double> bound_from(quadrature::CertifiedLevel level) {
   std::vector<double> bound;
   const double settled = 2.0 * level.ultimate_frequency_error();
-  while (bound.size() < kLongestShown && !(bound.size() >= kShortest && settled > 0.0 && level.settled(settled))) {
+  while (bound.size() < kLongestShown &&
+         !(bound.size() >= kShortest && settled > 0.0 && level.settled(settled))) {
     bound.push_back(level.frequency_error());
     level.step();
   }

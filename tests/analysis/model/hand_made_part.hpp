@@ -1,5 +1,5 @@
 // Parts of a loop's frequencies that are made by hand: functions on a grid that are what they say, and
-// matrices within their bounds. For sums over lags that are written out.
+// matrices within their bounds.
 #pragma once
 
 #include <Eigen/Dense>
@@ -95,7 +95,8 @@ inline Eigen::Vector2d grid_value(const model::GridFunction& f, double phase, do
 struct HandMade {
   std::size_t phases = 256;
   double frequency = 0.5, half_width = 1e-6;
-  double decay = 0.9;  ///< the size of both eigenvalues of the matrix, nearly
+  double decay = 0.9;    ///< the size of both eigenvalues of the matrix, nearly
+  double turning = 0.3;  ///< their angle, rad, at most
   double lean = 0.0, error = 0.0;
   double off = 0.0, residual = 0.0;
   std::size_t channels = 1;
@@ -117,7 +118,7 @@ inline model::PhasePart hand_made_part(Random& random, const HandMade& of) {
   part.columns.emplace(3, function());
   part.columns.emplace(5, function());
   part.slew = function();
-  const double angle = random.uniform(0.0, 0.3);
+  const double angle = random.uniform(0.0, of.turning);
   part.middle = {of.decay * std::cos(angle), -of.decay * std::sin(angle), of.decay * std::sin(angle),
                  of.decay * std::cos(angle)};
   for (const double each : part.middle) {
@@ -145,83 +146,6 @@ inline Eigen::RowVector2d times_matrix(const Eigen::RowVector2d& row, const mode
     result(j) = sum + std::copysign(more, sum);
   }
   return result;
-}
-
-/// The sizes of the inputs: of the noise, of both gates by cells of phases.
-struct HandSizes {
-  double noise = 0.0, slew = 0.0;
-  std::vector<double> gates[2];
-
-  HandSizes(Random& random, std::size_t phases) {
-    const auto any = [&] { return random.below(3) == 0 ? 0.0 : random.uniform(); };
-    noise = any();
-    for (std::vector<double>& each : gates) {
-      const double most = any();
-      const std::uint64_t few = 1 + random.below(4);
-      for (std::size_t g = 0; g < phases; ++g) {
-        each.push_back(random.below(few) == 0 ? most * random.uniform() : 0.0);
-      }
-    }
-  }
-};
-
-/// What the inputs of one sample at this phase do, at most, where `row` is what is seen of them.
-inline double effect_of_sample(const model::PhasePart& part, const Eigen::RowVector2d& row, double phase,
-                               double t, const HandSizes& sizes) {
-  double squares = 0.0;
-  for (const model::GridFunction& each : part.noise) {
-    const double seen = row.dot(grid_value(each, phase, t, row));
-    squares += seen * seen;
-  }
-  double sum = sizes.noise * std::sqrt(squares);
-  sum += sizes.slew * std::fabs(row.dot(grid_value(part.slew, phase, t, row)));
-  sum += std::fabs(row(0)) * part.residual[0] + std::fabs(row(1)) * part.residual[1];
-  const double turns = phase / (2.0 * std::numbers::pi);
-  const std::size_t phases = sizes.gates[0].size();
-  const auto cell =
-      static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(phases)) % phases;
-  std::size_t q = 0;
-  for (const auto& [input, column] : part.columns) {
-    sum += sizes.gates[q++][cell] * std::fabs(row.dot(grid_value(column, phase, t, row)));
-  }
-  return sum;
-}
-
-/// The bound of docs/gain-proof.md, section 10, in the cell g, without direct terms.
-inline double kernel_bound(const model::PhaseKernels& kernels, std::size_t form, std::size_t g,
-                           const HandSizes& sizes) {
-  using Kernels = model::PhaseKernels;
-  const std::size_t phases = sizes.gates[0].size();
-  double sum = kernels.residual(form) + kernels.missed(form, Kernels::kNoise) * sizes.noise +
-               kernels.missed(form, Kernels::kSlew) * sizes.slew;
-  double most = 0.0;
-  for (std::size_t q = 0; q < 2; ++q) {
-    sum += kernels.missed(form, Kernels::kFirstGate + q) *
-           *std::max_element(sizes.gates[q].begin(), sizes.gates[q].end());
-  }
-  for (const std::size_t point : {g, (g + 1) % phases}) {
-    double here = kernels.gain(form, Kernels::kNoise, point) * sizes.noise +
-                  kernels.gain(form, Kernels::kSlew, point) * sizes.slew;
-    for (std::size_t q = 0; q < 2; ++q) {
-      const double* gains = kernels.gains(form, Kernels::kFirstGate + q, point);
-      for (std::size_t w = 0; w < kernels.windows().size(); ++w) {
-        const Kernels::Window& window = kernels.windows()[w];
-        double largest = 0.0;
-        for (std::size_t i = 0; i < std::min(phases, std::size_t{1} << window.exponent); ++i) {
-          largest = std::max(largest, sizes.gates[q][(g + window.offset + i) % phases]);
-        }
-        here += gains[w] * largest;
-      }
-      if (kernels.has_late()) {
-        const std::vector<double> late = kernels.late_sizes(sizes.gates[q]);
-        for (std::size_t j = 0; j < phases; ++j) {
-          here += kernels.late(form, Kernels::kFirstGate + q, point)[j] * late[j];
-        }
-      }
-    }
-    most = std::max(most, here);
-  }
-  return sum + most;
 }
 
 }  // namespace veritrack::test

@@ -6,69 +6,21 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <vector>
 
-#include "tests/analysis/model/hand_made_part.hpp"
+#include "tests/analysis/model/lag_sums.hpp"
 
 namespace veritrack::model {
-namespace {
-
-/// The sum over all lags of what inputs do to the form at a phase, at one frequency.
-double sum_over_lags(const PhasePart& part, const GridFunction& form, double phase, double t,
-                     const test::HandSizes& sizes) {
-  constexpr int kLags = 300;
-  const double frequency = part.frequency + t * part.half_width;
-  const Eigen::RowVector2d plain = test::grid_value(form, phase, t, Eigen::RowVector2d::Zero()).transpose();
-  Eigen::RowVector2d row = test::grid_value(form, phase, t, plain).transpose();
-  double sum = 0.0;
-  for (int k = 0; k < kLags; ++k) {
-    sum += test::effect_of_sample(part, row, phase - (k + 1) * frequency, t, sizes);
-    row = test::times_matrix(row, part, t);
-  }
-  return sum;
-}
-
-/// Attacks the bounds of random parts; the largest share that is reached.
-double attack_sums(const test::HandMade& of, const PhaseGridding& gridding, std::uint64_t stream) {
-  test::Random random(stream);
-  double reached = 0.0;
-  for (int network = 0; network < 4; ++network) {
-    const std::vector<PhasePart> parts{test::hand_made_part(random, of)};
-    std::vector<PhaseKernels> kernels;
-    kernels.emplace_back(parts, 0, gridding, 0.0);
-    const auto totals = PhaseKernels::totals_of(kernels);
-    REQUIRE(totals);
-    kernels[0].find(*totals);
-    for (std::int64_t trial = 0; trial < test::effort(60); ++trial) {
-      const test::HandSizes sizes(random, of.phases);
-      const double t = random.below(2) == 0 ? 1.0 : random.uniform(-1.0, 1.0);
-      const std::size_t g = random.below(of.phases);
-      const double share = random.below(2) == 0 ? 0.0 : random.uniform();
-      const double phase =
-          (static_cast<double>(g) + share) * 2.0 * std::numbers::pi / static_cast<double>(of.phases);
-      const std::size_t form = random.below(2);
-      const double sum = sum_over_lags(parts[0], parts[0].forms[form], phase, t, sizes);
-      const double bound = test::kernel_bound(kernels[0], form, g, sizes);
-      REQUIRE(sum <= bound * (1.0 + 1e-12));
-      reached = std::max(reached, sum / bound);
-    }
-  }
-  return reached;
-}
-
-}  // namespace
-
 TEST_CASE("sums over lags that are taken one by one are within their bounds, and nearly reach them") {
   const rigor::UpwardRounding upward;
   const test::HandMade plain;
-  const PhaseGridding gridding{plain.phases, 128};
+  const PhaseGridding gridding{plain.phases, 128, 1, 0, 0, 128};
   const auto with = [&](auto change, std::uint64_t stream) {
     test::HandMade of = plain;
     change(of);
-    return attack_sums(of, gridding, stream);
+    return test::attack_sums(of, gridding, stream);
   };
-  CHECK(attack_sums(plain, gridding, 501) > 0.98);
+  CHECK(test::attack_sums(plain, gridding, 501) > 0.98);
   // Each for itself: what it costs would hide what another one misses.
   CHECK(with([](test::HandMade& of) { of.channels = 2; }, 502) > 0.98);
   CHECK(with([](test::HandMade& of) { of.error = 0.1; }, 503) > 0.8);
@@ -110,7 +62,8 @@ TEST_CASE("between the points of the grid a column that jumps from one to the ne
   sizes.gates[0].assign(of.phases, 0.0);
   sizes.gates[1].assign(of.phases, 0.0);
   CHECK(kernels[0].gain(0, PhaseKernels::kNoise, 3) < 0.1);
-  const double sum = sum_over_lags(part, part.forms[0], 3.5 * 2.0 * std::numbers::pi / 16.0, 0.0, sizes);
+  const double sum =
+      test::sum_over_lags(part, part.forms[0], 3.5 * 2.0 * std::numbers::pi / 16.0, 0.0, sizes, 100);
   CHECK(sum > 0.9);
   CHECK(sum <= test::kernel_bound(kernels[0], 0, 3, sizes));
 }

@@ -159,7 +159,9 @@ double attack_network(const NetworkCase& of, std::uint64_t stream) {
         }
         room += std::sqrt(squares) * (sizes[l] > 0.0 ? sizes[l] : 0.0);
       }
-      const double far = std::fabs(next(static_cast<Eigen::Index>(i)) - line);
+      const double off = next(static_cast<Eigen::Index>(i)) - line;
+      const bool is_angle = of.tracker.recursion.is_angle[i] || of.steady[i].imaginary;
+      const double far = std::fabs(is_angle ? nearest_turn_off(off) : off);
       REQUIRE(far <= room + 1e-9);
       reached = room > 1e-6 ? std::max(reached, far / room) : reached;
     }
@@ -181,6 +183,11 @@ TEST_CASE("one sample of a loop is within the matrix and the inputs of its netwo
     CAPTURE(stream);
     CHECK(attack_network({tracker, steady, Interval(1.0)}, ++stream) > 0.9);
     CHECK(attack_network({tracker, off, amplitudes}, ++stream) > 0.5);
+  }
+  // Errors beyond the limits of the detectors: there nothing is said.
+  for (const Detector detector : {Detector::arctangent2, Detector::arctangent}) {
+    const test::ExampleTracker tracker = test::two_channel_loop(0.1, 0.02, detector);
+    CHECK(attack_network({tracker, steady, Interval(1.0), 4.0, 0.95}, ++stream) > 0.9);
   }
   const std::vector<SteadyValue> vector{{1, 0.0, 0.0, 1}, {}, {0, 0.0, 1.0}};
   CHECK(attack_network({test::turn_between_samples(0.2), vector, amplitudes}, ++stream) > 0.9);

@@ -4,7 +4,7 @@
 
 #include "tests/support/oracles.hpp"
 
-namespace veritrack::test {
+namespace veritrack::oracle {
 
 Eigen::VectorXcd eigenvalues(const AnyMatrix& matrix) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
@@ -38,4 +38,4 @@ Eigen::VectorXd least_squares(const AnyMatrix& matrix, const Eigen::VectorXd& ri
   return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV).solve(right);
 }
 
-}  // namespace veritrack::test
+}  // namespace veritrack::oracle

@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-namespace veritrack::test {
+namespace veritrack::oracle {
 namespace {
 
 template <typename Matrix>
@@ -77,4 +77,4 @@ double determinant(const AnyMatrix& matrix) {
   return Eigen::PartialPivLU<Eigen::MatrixXd>(matrix).determinant();
 }
 
-}  // namespace veritrack::test
+}  // namespace veritrack::oracle

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace veritrack::test {
+namespace veritrack::oracle {
 
 using AnyMatrix = Eigen::Ref<const Eigen::MatrixXd>;
 using WideMatrix3 = Eigen::Matrix<long double, 3, 3>;
@@ -50,4 +50,4 @@ Eigen::MatrixXd inverse(const AnyMatrix& matrix);
 DynamicWideMatrix inverse(const Eigen::Ref<const DynamicWideMatrix>& matrix);
 double determinant(const AnyMatrix& matrix);
 
-}  // namespace veritrack::test
+}  // namespace veritrack::oracle

@@ -58,10 +58,10 @@ inline TwinDifference twin_difference(const SingleChannelValues& values,
   const Eigen::Matrix<Wide, 3, 1> e = computed.state() - exact.state();
   return {static_cast<double>(e.head<2>().norm()),
           static_cast<double>(std::fabs(e(2))),
-          symmetric_eigenvalues(zz).cwiseAbs().maxCoeff(),
+          oracle::symmetric_eigenvalues(zz).cwiseAbs().maxCoeff(),
           static_cast<double>(std::hypot(d(0, 2), d(1, 2))),
           static_cast<double>(std::fabs(d(2, 2))),
-          static_cast<double>(relative_radius(d, p)),
+          static_cast<double>(oracle::relative_radius(d, p)),
           static_cast<double>(std::sqrt(e.dot(computed.covariance.matrix().inverse() * e)))};
 }
 

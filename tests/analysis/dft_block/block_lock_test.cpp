@@ -128,7 +128,7 @@ TEST_CASE("a false lock and the exact one: the tracker, started anywhere in the 
     }
     const rigor::NearestRounding nearest;
     Random random(4404);
-    const rigor::Matrix<kStates> back = test::inverse(lock->set.metric);
+    const rigor::Matrix<kStates> back = oracle::inverse(lock->set.metric);
     for (int run = 0; run < 20; ++run) {
       rigor::Vector<kStates> direction;
       for (int i = 0; i < kStates; ++i) {

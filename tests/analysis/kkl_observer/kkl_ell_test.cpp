@@ -185,7 +185,7 @@ double ratio_on_a_grid(const Eigen::Matrix<double, M, 1>& lambda, double frequen
     for (int i = 0; i < M; ++i) {
       l.row(i) << lambda(i), 1.0, (direction / std::complex<double>(lambda(i), frequency)).imag();
     }
-    const double root = test::singular_values(l).prod();
+    const double root = oracle::singular_values(l).prod();
     smallest = std::min(smallest, root * root / l.col(2).squaredNorm());
   }
   return smallest;

@@ -41,7 +41,7 @@ TEST_CASE("random matrices: eigenvalues by Eigen") {
         matrix(i, j) = random.uniform(-1.0, 1.0);
       }
     }
-    const double largest = test::spectral_radius(matrix);
+    const double largest = oracle::spectral_radius(matrix);
     const rigor::UpwardRounding upward;
     std::vector<Row> a;
     for (Eigen::Index i = 0; i < n; ++i) {

@@ -36,7 +36,7 @@ double largest_zero(const std::vector<double>& p) {
     companion(0, i) = -p[static_cast<std::size_t>(i) + 1] / p[0];
   }
   companion.diagonal(-1).setOnes();
-  return test::spectral_radius(companion);
+  return oracle::spectral_radius(companion);
 }
 
 std::complex<double> value(const std::vector<double>& p, double angle) {

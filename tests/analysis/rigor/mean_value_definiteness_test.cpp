@@ -29,7 +29,7 @@ double determinant_at(double x, double y) {
       a(i, j) = lower[static_cast<std::size_t>(std::max(i, j))][static_cast<std::size_t>(std::min(i, j))];
     }
   }
-  return test::least_eigenvalue(a) > 0.0 ? a.determinant() : -1.0;
+  return oracle::least_eigenvalue(a) > 0.0 ? a.determinant() : -1.0;
 }
 
 struct Cell {

@@ -30,7 +30,7 @@ Symmetric4 random_matrix(test::Random& random, double least) {
   for (int i = 0; i < 16; ++i) {
     m(i / 4, i % 4) = random.uniform(-1.0, 1.0);
   }
-  const Symmetric4 q = test::orthogonal_factor(m);
+  const Symmetric4 q = oracle::orthogonal_factor(m);
   const Eigen::Vector4d values(least, random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), 1.0);
   return q * values.asDiagonal() * q.transpose();
 }

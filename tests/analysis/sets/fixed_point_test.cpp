@@ -75,7 +75,7 @@ TEST_CASE("fixed points of linear loops, for all parameters of an interval at on
     if (std::fabs(system.determinant()) < 1e-3) {
       continue;
     }
-    const Eigen::Vector3d exact_slope = veritrack::test::solution(system, loop.b);
+    const Eigen::Vector3d exact_slope = veritrack::oracle::solution(system, loop.b);
     const double low = random.uniform(-2.0, 2.0);
     const UpwardRounding upward;
     const Interval parameter = Interval::from_bounds(low, low + random.uniform());

@@ -44,7 +44,7 @@ Eigen::Matrix3d stepped(const Eigen::Matrix3d& p, double turn, double rho, const
 }
 
 double least_eigenvalue(const Eigen::Matrix3d& m) {
-  return test::least_eigenvalue(0.5 * (m + m.transpose()));
+  return oracle::least_eigenvalue(0.5 * (m + m.transpose()));
 }
 
 IntervalDesign enclosed(const Tone& d) {

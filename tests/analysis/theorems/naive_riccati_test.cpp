@@ -54,7 +54,7 @@ TEST_CASE("the covariance range holds along random runs of the textbook filter, 
         for (int step = 1; step <= 20; ++step) {
           const double m = run == 1 ? 1.0 - radius : random.uniform(1.0 - radius, 1.0 + radius);
           p = textbook_step(p, m, random.uniform(0.0, 6.3), design);
-          const Eigen::Vector3d eigenvalues = test::symmetric_eigenvalues(p);
+          const Eigen::Vector3d eigenvalues = oracle::symmetric_eigenvalues(p);
           CHECK(eigenvalues(0) >= range.smallest.lower() * (1.0 - 1e-6));
           if (step >= 2) {
             CHECK(eigenvalues(2) <= range.largest.upper() * (1.0 + 1e-6));
@@ -64,7 +64,7 @@ TEST_CASE("the covariance range holds along random runs of the textbook filter, 
       p = textbook_step(textbook_step(1e8 * (design.r + design.q1 + design.q2) * Eigen::Matrix3d::Identity(),
                                       1.0 - radius, 0.3, design),
                         1.0 - radius, 0.3, design);
-      largest = test::largest_eigenvalue(p);
+      largest = oracle::largest_eigenvalue(p);
     }
     if (design.r < 1e-4 * design.q2) {
       continue;  // double loses the digits of an almost infinite prior

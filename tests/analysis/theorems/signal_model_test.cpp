@@ -55,7 +55,7 @@ Square jacobian(const Vector& x, long double epsilon) {
 }
 
 long double largest_singular_value(const Square& a) {
-  return test::singular_values(a)(0);
+  return oracle::singular_values(a)(0);
 }
 
 /// The second derivative of (3.1) in the directions u, v, partial derivative by partial derivative.
@@ -92,8 +92,8 @@ long double best_direction(Form form, Vector& v) {
   for (int i = 0; i < 3; ++i) {
     columns.col(i) = form(Vector(Vector::Unit(i)));
   }
-  v = test::right_singular_vectors(columns).col(0);
-  return test::singular_values(columns)(0);
+  v = oracle::right_singular_vectors(columns).col(0);
+  return oracle::singular_values(columns)(0);
 }
 
 }  // namespace
@@ -196,7 +196,7 @@ TEST_CASE("the observability Gramian has the eigenvalues of its definition (2.22
     const Square back = jacobian(x, static_cast<long double>(epsilon)).inverse();
     const Square gramian =
         (h.transpose() * h + back.transpose() * h.transpose() * h * back) / static_cast<long double>(r);
-    const Vector values = test::symmetric_eigenvalues(gramian);
+    const Vector values = oracle::symmetric_eigenvalues(gramian);
     const double scale = static_cast<double>(values(2));
     check_close(
         Interval::from_bounds(eigenvalues.smallest.lower() / scale, eigenvalues.smallest.upper() / scale),

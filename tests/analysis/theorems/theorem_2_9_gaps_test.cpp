@@ -110,7 +110,7 @@ Eigen::Vector3d textbook_eigenvalues(const Eigen::Vector3d& estimate, double r, 
   const Eigen::Matrix<double, 2, 3> output = Eigen::Matrix<double, 2, 3>::Identity();
   const Eigen::Matrix<double, 2, 3> before = output * transition.inverse();
   const Eigen::Matrix3d gramian = (output.transpose() * output + before.transpose() * before) / r;
-  return test::symmetric_eigenvalues(gramian);
+  return oracle::symmetric_eigenvalues(gramian);
 }
 
 TEST_CASE("sampled estimates never break a proved b_1 or b_2, and the witness breaks a refuted one") {

@@ -126,7 +126,7 @@ struct NoisyFilter {
   /// A state at this level, with one of the covariances between the bounds that are farthest from each other.
   [[nodiscard]] VectorXd state(double phase, double frequency, double level, test::Random& random) const {
     const auto [low, high] = bounds(phase, frequency);
-    const MatrixXd root = test::cholesky_factor(0.5 * (high - low));
+    const MatrixXd root = oracle::cholesky_factor(0.5 * (high - low));
     const VectorXd u = direction(random);
     const MatrixXd y =
         (random.below(2) == 0 ? 1.0 : -1.0) *

@@ -211,7 +211,7 @@ void check_tube(const Filter& filter, const model::TubeProposal& proposal, doubl
     const double frequency = tube.frequency + tube.half_width * random.uniform(-1.0, 1.0);
     const std::vector<MatrixXd> here = matrices(phase, frequency);
     // Extreme covariances: D (I - 2 u u') D' about the middle, or one of the bounds.
-    const MatrixXd root = test::cholesky_factor(0.5 * (here[1] - here[0]));
+    const MatrixXd root = oracle::cholesky_factor(0.5 * (here[1] - here[0]));
     const VectorXd u = random_vector(random, 1.0);
     const std::uint64_t kind = random.below(4);
     const MatrixXd y =
@@ -235,8 +235,8 @@ void check_tube(const Filter& filter, const model::TubeProposal& proposal, doubl
     const std::vector<MatrixXd> there = matrices(phase + frequency, frequency);
     CAPTURE(i);
     REQUIRE(reached <= kShrinking * level);
-    REQUIRE(test::least_eigenvalue(covariance_of(next) - there[0]) > 0.0);
-    REQUIRE(test::least_eigenvalue(there[1] - covariance_of(next)) > 0.0);
+    REQUIRE(oracle::least_eigenvalue(covariance_of(next) - there[0]) > 0.0);
+    REQUIRE(oracle::least_eigenvalue(there[1] - covariance_of(next)) > 0.0);
   }
   // Not far from what is proved.
   CHECK(largest > 0.8);

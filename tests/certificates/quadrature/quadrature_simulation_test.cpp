@@ -61,7 +61,7 @@ TEST_CASE("the run starts at the edge of the assumed errors") {
   CHECK(start.filtered_state[2] - start.true_state[2] == doctest::Approx(0.005));
   for (const auto& record : simulation.trajectory) {
     CHECK((record.measurement - record.true_state.head<2>()).norm() <= 0.001);
-    CHECK(test::least_eigenvalue(record.filtered_covariance) > 0.0);
+    CHECK(oracle::least_eigenvalue(record.filtered_covariance) > 0.0);
   }
   CHECK(std::fabs(simulation.trajectory.back().filtered_state[2] - start.true_state[2]) < 0.001);
 }

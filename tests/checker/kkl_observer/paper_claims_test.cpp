@@ -1,6 +1,5 @@
 // The smallest singular value of the Vandermonde matrix, against Eigen's.
 #include "checker/kkl_observer/paper_claims.hpp"
-#include "tests/support/oracles.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +9,8 @@
 #include <cstdio>
 #include <string>
 #include <vector>
+
+#include "tests/support/oracles.hpp"
 
 namespace {
 
@@ -21,7 +22,7 @@ double smallest_singular_value(const std::array<double, 4>& rates) {
     const double l = rates[static_cast<std::size_t>(i)];
     v.row(i) << l * l * l, l * l, l, 1.0;
   }
-  return std::sqrt(test::least_eigenvalue(v.transpose() * v));
+  return std::sqrt(veritrack::oracle::least_eigenvalue(v.transpose() * v));
 }
 
 KklDesign design_of(const std::vector<Ball>& rates) {

@@ -113,7 +113,9 @@ struct Textbook {
     return (in_double(set.centre).inverse() + s * in_double(set.below)).inverse();
   }
   [[nodiscard]] double level_of(const Matrix& p) const {
-    const auto largest = [](const Matrix& x, const Matrix& y) { return test::relative_eigenvalues(x, y)[2]; };
+    const auto largest = [](const Matrix& x, const Matrix& y) {
+      return oracle::relative_eigenvalues(x, y)[2];
+    };
     return std::max(
         {0.0, largest(p - in_double(set.centre), in_double(set.above)),
          largest(Matrix(p.inverse()) - Matrix(in_double(set.centre).inverse()), in_double(set.below))});
@@ -170,12 +172,12 @@ struct Textbook {
   /// A random covariance of a level of at most s.
   [[nodiscard]] Matrix covariance_of_level(double s, test::Random& random) const {
     const Matrix spread = 0.5 * (high(s) - low(s));
-    const Matrix root = test::cholesky_factor(spread + 1e-12 * Matrix::Identity());
+    const Matrix root = oracle::cholesky_factor(spread + 1e-12 * Matrix::Identity());
     Matrix entries;
     for (int i = 0; i < 9; ++i) {
       entries(i / 3, i % 3) = random.uniform(-1.0, 1.0);
     }
-    const Matrix directions = test::symmetric_eigenvectors(entries + entries.transpose());
+    const Matrix directions = oracle::symmetric_eigenvectors(entries + entries.transpose());
     const Vector signs(random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0,
                        random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0, random.uniform(-1.0, 1.0));
     return 0.5 * (high(s) + low(s)) +

@@ -66,7 +66,7 @@ TEST_CASE("matrices of chords lie between the corners, less the rest and plus th
       }
     }
     // The lower triangle is what counts.
-    CHECK(test::least_eigenvalue(above) >= -1e-14);
-    CHECK(test::least_eigenvalue(below) >= -1e-14);
+    CHECK(oracle::least_eigenvalue(above) >= -1e-14);
+    CHECK(oracle::least_eigenvalue(below) >= -1e-14);
   }
 }

@@ -1,6 +1,5 @@
 // The checker's bound on rounding against the tracker that runs, beside its twin in long double.
 #include "checker/quadrature/rounded_step.hpp"
-#include "tests/support/oracles.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/oracles.hpp"
 #include "tests/trackers/random_tracker.hpp"
 
 namespace {
@@ -54,7 +54,7 @@ double share(const trackers::ToneModel<double>& design, const trackers::Quadratu
            std::hypot(computed.in_phase - exact.in_phase, computed.quadrature - exact.quadrature)) /
            bound.z.near(),
        static_cast<double>(std::fabs(computed.frequency - exact.frequency)) / bound.frequency.near(),
-       test::symmetric_eigenvalues(zz).cwiseAbs().maxCoeff() / bound.p_zz.near(),
+       oracle::symmetric_eigenvalues(zz).cwiseAbs().maxCoeff() / bound.p_zz.near(),
        static_cast<double>(std::hypot(p(0, 2), p(1, 2))) / bound.p_z3.near(),
        static_cast<double>(std::fabs(p(2, 2))) / bound.p_33.near()});
 }

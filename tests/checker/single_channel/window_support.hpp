@@ -36,9 +36,9 @@ inline Extremes along_a_tone() {
     const Eigen::Matrix3d predicted = tracker.predicted().covariance.matrix();
     found.most_p33 = std::max(found.most_p33, p(2, 2));
     found.least_p33 = std::min(found.least_p33, p(2, 2));
-    found.most_signal = std::max(found.most_signal, test::largest_eigenvalue(p.topLeftCorner<2, 2>()));
+    found.most_signal = std::max(found.most_signal, oracle::largest_eigenvalue(p.topLeftCorner<2, 2>()));
     found.least_predicted =
-        std::min(found.least_predicted, test::least_eigenvalue(predicted.topLeftCorner<2, 2>()));
+        std::min(found.least_predicted, oracle::least_eigenvalue(predicted.topLeftCorner<2, 2>()));
     found.most_inverse = std::max(found.most_inverse, p.inverse()(2, 2));
   }
   return found;

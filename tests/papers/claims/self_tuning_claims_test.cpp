@@ -58,7 +58,7 @@ TEST_CASE(
       p = (p - g * g.transpose() / (1.0 + size)).eval();
       rbar *= 1.0 + size;
       trace += phi.squaredNorm();
-      const double largest = test::largest_eigenvalue(p);
+      const double largest = oracle::largest_eigenvalue(p);
       p *= std::min(1.0, limit / (rbar * largest));
       sum += y * y / rbar;
       REQUIRE(rbar <= limit * trace * (1.0 + 1e-9));

@@ -42,7 +42,7 @@ TEST_CASE(
         ++row;
       }
     }
-    CHECK(test::rank(values) == half);
+    CHECK(oracle::rank(values) == half);
   }
   CHECK_THROWS_AS((void)theorems::medians_are_a_basis(0), std::invalid_argument);
   CHECK_THROWS_AS((void)theorems::medians_are_a_basis(13), std::invalid_argument);

@@ -33,7 +33,7 @@ TextbookEkf<Real> textbook_of(const ToneModel<double>& design, const QuadratureE
 
 template <typename Real>
 double condition_of(const Eigen::Matrix<Real, 2, 2>& s) {
-  const Eigen::Vector2d values = test::symmetric_eigenvalues(s.template cast<double>());
+  const Eigen::Vector2d values = oracle::symmetric_eigenvalues(s.template cast<double>());
   return values(1) / values(0);
 }
 

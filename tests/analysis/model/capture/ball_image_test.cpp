@@ -86,8 +86,8 @@ TEST_CASE("no ball and no noise reach further than the bound, and the bound is n
     }
     CHECK(most <= bound);
     // The least that it could be: the norms of both.
-    const double norm_of_a = test::singular_values(a.at(0.0, 0.0))[0] * radius;
-    const double norm_of_b = test::singular_values(b.at(0.0, 0.0))[0] * noise;
+    const double norm_of_a = oracle::singular_values(a.at(0.0, 0.0))[0] * radius;
+    const double norm_of_b = oracle::singular_values(b.at(0.0, 0.0))[0] * noise;
     CHECK(bound <= 1.1 * (norm_of_a + norm_of_b) + 0.2 * (radius + noise));
     least_ratio = std::min(least_ratio, bound / (norm_of_a + norm_of_b));
   }

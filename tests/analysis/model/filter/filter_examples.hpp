@@ -131,7 +131,7 @@ struct BentFilter {
     return Eigen::Matrix2d{{r, r12}, {r12, r}}.topLeftCorner(channels, channels);
   }
   /// R^-1 H.
-  [[nodiscard]] Eigen::MatrixXd weighted() const { return solution(noise(), measured()); }
+  [[nodiscard]] Eigen::MatrixXd weighted() const { return oracle::solution(noise(), measured()); }
   /// Of the inverses: P+^-1 = P^-1 + H' R^-1 H.
   [[nodiscard]] Eigen::Matrix2d updated(const Eigen::Matrix2d& predicted) const {
     const Eigen::Matrix2d information = predicted.inverse() + measured().transpose() * weighted();

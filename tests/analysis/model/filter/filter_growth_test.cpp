@@ -56,7 +56,7 @@ double length_of(const FilterStepOnOrbit& step, const test::BentFilter& bent, co
   if (step.move.size() > 0) {
     error += moved * step.move;
   }
-  return test::solution(test::lower_root(step.after), error).norm();
+  return oracle::solution(test::lower_root(step.after), error).norm();
 }
 
 /// The longest of many.

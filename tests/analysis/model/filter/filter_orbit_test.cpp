@@ -87,8 +87,8 @@ struct SampledStep {
       const Eigen::Matrix2d below = next.low;
       CHECK(test::least_of_both(above - predicted) > 0.0);
       CHECK(test::least_of_both(predicted - below) > 0.0);
-      of_high = std::max(of_high, test::eigenvalues(above.inverse() * predicted).real().maxCoeff());
-      of_low = std::max(of_low, test::eigenvalues(predicted.inverse() * below).real().maxCoeff());
+      of_high = std::max(of_high, oracle::eigenvalues(above.inverse() * predicted).real().maxCoeff());
+      of_low = std::max(of_low, oracle::eigenvalues(predicted.inverse() * below).real().maxCoeff());
     }
   }
 };

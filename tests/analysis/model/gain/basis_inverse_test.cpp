@@ -68,7 +68,7 @@ TEST_CASE("solutions lie in their ranges, whatever the units of rows and columns
       is_known = is_known && !is_empty(range);
       for (const double z : {-1.0, -0.3, 0.0, 1.0}) {
         const Eigen::Matrix3d there = family.middle + z * family.lean;
-        const double exact = test::solution(there, family.middle.col(0))(i);
+        const double exact = oracle::solution(there, family.middle.col(0))(i);
         const double room = 1e-7 * (std::fabs(exact) + std::fabs(rigor::midpoint(range)));
         CHECK((is_empty(range) || (range.lower() - room <= exact && exact <= range.upper() + room)));
       }

@@ -80,7 +80,7 @@ VectorXd step_in_shape(const CurveDynamics& dynamics, const ShapeOnGrid& shape, 
       }
     }
   }
-  return test::solution(next, result);
+  return oracle::solution(next, result);
 }
 
 VectorXd direction_of(double angle) {
@@ -126,7 +126,7 @@ TEST_CASE("the rate and the reach are attained in some direction") {
     const auto at = static_cast<std::size_t>(phase);
     const MatrixXd here = shape.here.col(phase).reshaped(2, 2);
     const MatrixXd next = shape.next.col(phase).reshaped(2, 2);
-    const MatrixXd to_next = test::solution(next, dynamics.step[at].state * here);
+    const MatrixXd to_next = oracle::solution(next, dynamics.step[at].state * here);
     double rate = 0.0, reach = 0.0, bend = 0.0;
     for (int i = 0; i < 20000; ++i) {
       const VectorXd xi = direction_of(M_PI * i / 20000.0);

@@ -48,15 +48,15 @@ TEST_CASE("no other shares are better") {
       CHECK(share > 0.0);
     }
     const double sum = shares[0] + shares[1] + shares[2];
-    const double best = test::largest_eigenvalue(sum * (x / shares[0] + v / shares[1] + w / shares[2]));
+    const double best = oracle::largest_eigenvalue(sum * (x / shares[0] + v / shares[1] + w / shares[2]));
     const double t = proposed_split(x, v);
     for (int other = 0; other < 200; ++other) {
       const double a = random.uniform(0.001, 1.0);
       const double b = random.uniform(0.0005, 1.0);
       const double c = random.uniform(0.0005, 1.0);
-      CHECK(best <= 1.0001 * test::largest_eigenvalue((a + b + c) * (x / a + v / b + w / c)));
-      CHECK(test::largest_eigenvalue(x / t + v / (1.0 - t)) <=
-            1.0001 * test::largest_eigenvalue((a + b) * (x / a + v / b)));
+      CHECK(best <= 1.0001 * oracle::largest_eigenvalue((a + b + c) * (x / a + v / b + w / c)));
+      CHECK(oracle::largest_eigenvalue(x / t + v / (1.0 - t)) <=
+            1.0001 * oracle::largest_eigenvalue((a + b) * (x / a + v / b)));
     }
   }
 }

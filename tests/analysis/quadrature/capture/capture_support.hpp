@@ -138,8 +138,8 @@ class TrackedRun {
     e[2] -= 6.283185307179586476925 * turns;
     const rigor::Matrix<3> p = covariance();
     return (set.metric * e).norm() <= set.radius * (1.0 + 1e-9) &&
-           test::least_eigenvalue(p - set.covariance_lower) > -1e-12 &&
-           test::least_eigenvalue(set.covariance_upper - p) > -1e-12;
+           oracle::least_eigenvalue(p - set.covariance_lower) > -1e-12 &&
+           oracle::least_eigenvalue(set.covariance_upper - p) > -1e-12;
   }
 
  private:

@@ -42,7 +42,7 @@ TEST_CASE("no step turns the estimate further than its amplitude's bound says") 
                          Interval(noise)});
   }
   REQUIRE(!turns.empty());
-  const Eigen::Matrix3d root = test::cholesky_factor(matrix(high) - matrix(low));
+  const Eigen::Matrix3d root = oracle::cholesky_factor(matrix(high) - matrix(low));
   test::Random random(78);
   double closest = 0.0;
   for (std::int64_t k = 0; k < test::effort(20000); ++k) {

@@ -115,7 +115,7 @@ class Simulation {
 };
 
 double smallest_eigenvalue(const Eigen::Matrix3d& m) {
-  return test::least_eigenvalue(0.5 * (m + m.transpose()));
+  return oracle::least_eigenvalue(0.5 * (m + m.transpose()));
 }
 
 /// Is the filter in the set, up to rounding?
@@ -130,12 +130,12 @@ bool is_inside(const CertifiedSet& set, const Eigen::Vector3d& error, const Eige
 Eigen::Matrix3d random_covariance_of(const CertifiedSet& set, test::Random& random) {
   const Eigen::Matrix3d middle = 0.5 * (set.covariance_lower + set.covariance_upper);
   const Eigen::Matrix3d half = 0.5 * (set.covariance_upper - set.covariance_lower);
-  const Eigen::Matrix3d d = test::cholesky_factor(half);
+  const Eigen::Matrix3d d = oracle::cholesky_factor(half);
   Eigen::Matrix3d a;
   for (int i = 0; i < 9; ++i) {
     a(i / 3, i % 3) = random.uniform(-1.0, 1.0);
   }
-  const Eigen::Matrix3d q = test::orthogonal_factor(a);
+  const Eigen::Matrix3d q = oracle::orthogonal_factor(a);
   Eigen::Vector3d y;
   for (int i = 0; i < 3; ++i) {
     y(i) = random.below(2) == 0 ? (random.below(2) == 0 ? 1.0 : -1.0) : random.uniform(-1.0, 1.0);

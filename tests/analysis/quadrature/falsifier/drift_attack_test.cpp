@@ -64,7 +64,7 @@ double level_of(const LockSet& set, const Eigen::Matrix3d& p) {
   centre << set.centre.p11, 0.0, 0.0, 0.0, set.centre.p22, set.centre.p23, 0.0, set.centre.p23,
       set.centre.p33;
   // D_h is P_0 and D_l its inverse: the level is that of the eigenvalues of P_0^-1 P.
-  const Eigen::Vector3d values = test::relative_eigenvalues(p, centre);
+  const Eigen::Vector3d values = oracle::relative_eigenvalues(p, centre);
   return std::max({0.0, values[2] - 1.0, 1.0 / values[0] - 1.0});
 }
 

@@ -36,7 +36,7 @@ TEST_CASE("the limit lies beyond the certified radius, and random starts find no
     CHECK(limit > set.radius);
     CHECK(limit < 10.0 * set.radius);
     CHECK(limit == sampled_radius_limit(set, design));
-    const rigor::Matrix<3> root = test::cholesky_factor(set.covariance_upper - set.covariance_lower);
+    const rigor::Matrix<3> root = oracle::cholesky_factor(set.covariance_upper - set.covariance_lower);
     for (std::int64_t k = 0; k < test::effort(20000); ++k) {
       const rigor::Vector<3> e =
           set.metric.inverse() *

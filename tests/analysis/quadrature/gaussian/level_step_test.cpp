@@ -138,9 +138,9 @@ TEST_CASE("tangents along the level bound the images: from above those of hi, fr
     const auto tangent = [&](const LevelImage<double>& image) {
       return whole(moved(image.covariance, other - s, image.slope));
     };
-    CHECK(test::least_eigenvalue(tangent(step.upper) - whole(there.upper.covariance)) > -1e-15);
-    CHECK(test::least_eigenvalue(whole(there.lower.covariance) - tangent(step.lower)) > -1e-15);
-    CHECK(test::least_eigenvalue(whole(there.upper.covariance) - whole(there.lower.covariance)) > -1e-15);
+    CHECK(oracle::least_eigenvalue(tangent(step.upper) - whole(there.upper.covariance)) > -1e-15);
+    CHECK(oracle::least_eigenvalue(whole(there.lower.covariance) - tangent(step.lower)) > -1e-15);
+    CHECK(oracle::least_eigenvalue(whole(there.upper.covariance) - whole(there.lower.covariance)) > -1e-15);
   }
 }
 

@@ -46,7 +46,7 @@ double level_of_state(const LockSet& set, const trackers::QuadratureEstimate<dou
   const double imaginary = x[1] * std::cos(phase) - x[0] * std::sin(phase);
   const double nu = x[2] - frequency;
   const Matrix p = turned_by(estimate.covariance.matrix(), -phase);
-  const auto largest = [](const Matrix& a, const Matrix& b) { return test::relative_eigenvalues(a, b)[2]; };
+  const auto largest = [](const Matrix& a, const Matrix& b) { return oracle::relative_eigenvalues(a, b)[2]; };
   const double s = std::max({0.0, largest(p - matrix_of_block(set.centre), matrix_of_block(set.spread_above)),
                              largest(Matrix(p.inverse()) - Matrix(matrix_of_block(set.centre).inverse()),
                                      matrix_of_block(set.spread_below))});

@@ -39,7 +39,7 @@ double level_of(const LockSet& set, double amplitude, double phase, double frequ
   turn(1, 0) = std::sin(phase);
   turn(0, 1) = -turn(1, 0);
   const Matrix p = turn * covariance * turn.transpose();
-  const auto largest = [](const Matrix& x, const Matrix& y) { return test::relative_eigenvalues(x, y)[2]; };
+  const auto largest = [](const Matrix& x, const Matrix& y) { return oracle::relative_eigenvalues(x, y)[2]; };
   const double s =
       std::max({0.0, largest(p - whole_block(set.centre), whole_block(set.spread_above)),
                 largest(p.inverse() - whole_block(set.centre).inverse(), whole_block(set.spread_below))});

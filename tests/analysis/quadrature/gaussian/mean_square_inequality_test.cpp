@@ -52,8 +52,8 @@ double excess(const Example& example, const Eigen::Vector3d& away, const Matrix&
   const auto next = example.filter.step(away, p, frequency);
   const Eigen::Vector3d offset(form.offset[0], form.offset[1], form.offset[2]);
   double after = squared_length(form.metric, next.mean - offset);
-  const Eigen::Vector3d values = test::symmetric_eigenvalues(next.sigma);
-  const Matrix directions = test::symmetric_eigenvectors(next.sigma);
+  const Eigen::Vector3d values = oracle::symmetric_eigenvalues(next.sigma);
+  const Matrix directions = oracle::symmetric_eigenvectors(next.sigma);
   for (int i = 0; i < 3; ++i) {
     after += values[i] * squared_length(form.metric, directions.col(i));
   }

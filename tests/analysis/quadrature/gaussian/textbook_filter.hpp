@@ -36,7 +36,9 @@ struct TextbookFilter {
     return t.transpose() * t;
   }
   [[nodiscard]] double level_of(const Matrix& p) const {
-    const auto largest = [](const Matrix& x, const Matrix& y) { return test::relative_eigenvalues(x, y)[2]; };
+    const auto largest = [](const Matrix& x, const Matrix& y) {
+      return oracle::relative_eigenvalues(x, y)[2];
+    };
     const double above = largest(p - whole(set.centre), whole(set.spread_above));
     const double below =
         largest(Matrix(p.inverse()) - Matrix(whole(set.centre).inverse()), whole(set.spread_below));
@@ -92,12 +94,12 @@ struct TextbookFilter {
 inline Matrix covariance_of_level(const LockSet& set, double s, test::Random& random) {
   const Matrix high = whole(set.centre) + s * whole(set.spread_above);
   const Matrix low = (whole(set.centre).inverse() + s * whole(set.spread_below)).inverse();
-  const Matrix root = test::cholesky_factor(0.5 * (high - low) + 1e-12 * Matrix::Identity());
+  const Matrix root = oracle::cholesky_factor(0.5 * (high - low) + 1e-12 * Matrix::Identity());
   Matrix random_matrix;
   for (int i = 0; i < 9; ++i) {
     random_matrix(i / 3, i % 3) = random.uniform(-1.0, 1.0);
   }
-  const Matrix directions = test::symmetric_eigenvectors(random_matrix + random_matrix.transpose());
+  const Matrix directions = oracle::symmetric_eigenvectors(random_matrix + random_matrix.transpose());
   const Eigen::Vector3d signs(random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0,
                               random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0, random.uniform(-1.0, 1.0));
   const Matrix y = directions * signs.asDiagonal() * directions.transpose();

@@ -69,7 +69,7 @@ TEST_CASE("no step of the textbook filter is longer than the cautious rate") {
     Polar start = x;
     start.head<3>() += level * b;
     const Eigen::Vector3d axis = direction();
-    const Eigen::Matrix3d root = test::cholesky_factor(band);
+    const Eigen::Matrix3d root = oracle::cholesky_factor(band);
     const Eigen::Matrix3d p =
         steady +
         level * (root * (2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity()) * root.transpose());

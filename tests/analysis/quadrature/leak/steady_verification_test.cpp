@@ -60,7 +60,7 @@ Example example_of(double q, double r, double epsilon, double low, double high, 
 /// The smallest s with -s below <= deviation <= s above.
 double covariance_level(const SteadySet& set, const Eigen::Matrix3d& deviation) {
   const auto share = [](const Eigen::Matrix3d& bound, const Eigen::Matrix3d& x) {
-    return test::relative_eigenvalues(x, bound)[2];
+    return oracle::relative_eigenvalues(x, bound)[2];
   };
   return std::max(share(set.above, deviation), share(set.below, -deviation));
 }
@@ -82,7 +82,7 @@ Polar rim(const SteadySet& set, double s, test::Random& random) {
           .normalized();
   y = random.uniform() < 0.5 ? Eigen::Matrix3d(axis * axis.transpose())
                              : Eigen::Matrix3d(Eigen::Matrix3d::Identity() - axis * axis.transpose());
-  const Eigen::Matrix3d root = test::cholesky_factor(set.above + set.below);
+  const Eigen::Matrix3d root = oracle::cholesky_factor(set.above + set.below);
   const Eigen::Matrix3d p = s * (root * y * root.transpose() - set.below);
   Polar result;
   result << error, p(0, 0), p(0, 1), p(0, 2), p(1, 1), p(1, 2), p(2, 2);

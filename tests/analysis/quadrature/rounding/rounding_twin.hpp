@@ -50,7 +50,7 @@ inline quadrature::StateDifference difference_of(const Twins& twins) {
   return {static_cast<double>(std::hypot(computed.in_phase - twins.exact.in_phase,
                                          computed.quadrature - twins.exact.quadrature)),
           static_cast<double>(std::fabs(computed.frequency - twins.exact.frequency)),
-          symmetric_eigenvalues(zz.cast<double>()).cwiseAbs().maxCoeff(),
+          oracle::symmetric_eigenvalues(zz.cast<double>()).cwiseAbs().maxCoeff(),
           static_cast<double>(std::hypot(d(0, 2), d(1, 2))), static_cast<double>(std::fabs(d(2, 2)))};
 }
 
@@ -74,12 +74,12 @@ inline Eigen::Matrix3d between(Random& random, const Eigen::Matrix3d& low, const
   for (int i = 0; i < 9; ++i) {
     a(i) = random.uniform(-1.0, 1.0);
   }
-  const Eigen::Matrix3d axes = orthogonal_factor(a);
+  const Eigen::Matrix3d axes = oracle::orthogonal_factor(a);
   Eigen::Vector3d share;
   for (int i = 0; i < 3; ++i) {
     share[i] = random.below(2) == 0 ? static_cast<double>(random.below(2)) : random.uniform();
   }
-  const Eigen::Matrix3d root = cholesky_factor(high - low);
+  const Eigen::Matrix3d root = oracle::cholesky_factor(high - low);
   return low + root * axes * share.asDiagonal() * axes.transpose() * root.transpose();
 }
 
@@ -95,7 +95,7 @@ inline double distance(const Eigen::Matrix3d& metric, const WidePolar& a, const 
 /// The least m with -m P <= A - B <= m P.
 inline double share_of_difference(const Eigen::Matrix3d& p, const WidePolar& a, const WidePolar& b) {
   const Eigen::Matrix3d d = (a.covariance.matrix() - b.covariance.matrix()).cast<double>();
-  return relative_eigenvalues(0.5 * (d + d.transpose()), p).cwiseAbs().maxCoeff();
+  return oracle::relative_eigenvalues(0.5 * (d + d.transpose()), p).cwiseAbs().maxCoeff();
 }
 
 }  // namespace veritrack::test

@@ -2,9 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 
@@ -41,7 +42,7 @@ TEST_CASE("no step turns the estimate further than its amplitude's bound says") 
                          Interval(noise)});
   }
   REQUIRE(!turns.empty());
-  const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(matrix_of(high) - matrix_of(low)).matrixL();
+  const Eigen::Matrix3d root = oracle::cholesky_factor(matrix_of(high) - matrix_of(low));
   test::Random random(78);
   double closest = 0.0;
   for (std::int64_t k = 0; k < test::effort(20000); ++k) {

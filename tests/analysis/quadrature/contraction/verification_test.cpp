@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analysis/quadrature/contraction/proposal.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 
@@ -114,7 +115,7 @@ class Simulation {
 };
 
 double least_eigenvalue_of(const Eigen::Matrix3d& m) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(0.5 * (m + m.transpose())).eigenvalues()(0);
+  return oracle::least_eigenvalue(0.5 * (m + m.transpose()));
 }
 
 /// Is the filter in the set, up to rounding?
@@ -129,12 +130,12 @@ bool is_inside(const CertifiedSet& set, const Eigen::Vector3d& error, const Eige
 Eigen::Matrix3d random_covariance_of(const CertifiedSet& set, test::Random& random) {
   const Eigen::Matrix3d middle = 0.5 * (set.covariance_lower + set.covariance_upper);
   const Eigen::Matrix3d half = 0.5 * (set.covariance_upper - set.covariance_lower);
-  const Eigen::Matrix3d d = half.llt().matrixL();
+  const Eigen::Matrix3d d = oracle::cholesky_factor(half);
   Eigen::Matrix3d a;
   for (int i = 0; i < 9; ++i) {
     a(i / 3, i % 3) = random.uniform(-1.0, 1.0);
   }
-  const Eigen::Matrix3d q = a.householderQr().householderQ();
+  const Eigen::Matrix3d q = oracle::orthogonal_factor(a);
   Eigen::Vector3d y;
   for (int i = 0; i < 3; ++i) {
     y(i) = random.below(2) == 0 ? (random.below(2) == 0 ? 1.0 : -1.0) : random.uniform(-1.0, 1.0);

@@ -39,8 +39,9 @@ set(veritrack_common_headers <algorithm> <array> <cmath> <cstdint> <functional> 
     <string_view> <utility> <variant> <vector>)
 
 # With CMAKE_UNITY_BUILD (the presets; cmake --preset release -DCMAKE_UNITY_BUILD=OFF is better while you edit) the files
-# of a folder are compiled together, because most of the time goes into templates that they share. These have a helper
-# with a neighbour's name, which the compiler then calls a redefinition, and are compiled alone.
+# of a folder are compiled together, because most of the time goes into templates that they share. Two helpers of a
+# folder must therefore not have the same name; the compiler says so. Compiled alone are units for one set of instructions
+# and units whose own templates would make a batch the step that a build waits for.
 macro(veritrack_alone folder)
   foreach(name ${ARGN})
     list(APPEND veritrack_alone "${folder}/${name}.cpp")

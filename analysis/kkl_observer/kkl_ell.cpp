@@ -114,8 +114,8 @@ double solve_reduced(const Midpoints<M>& at, search::SearchMethod method) {
   return ratio.at(frequency_at(best.point));
 }
 
-theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value,
-                            Sense sense, std::string words) {
+theorems::Quantity ell_quantity(std::string name, std::string symbol, std::string formula,
+                                const Interval& value, Sense sense, std::string words) {
   theorems::Quantity result{
       std::move(name), std::move(symbol), std::move(formula), "paper, (10)", value, std::nullopt,
       sense,           std::move(words)};
@@ -178,16 +178,17 @@ theorems::Derivation derive_kkl_ell(const KklRangeOf<M>& range, const search::Ve
   derivation.id = "kkl-ell";
   derivation.title = "The constant of (10): the distance of T(x) from the singular set of the inverse";
   const std::string reduced = "\\min_\\omega \\lambda_{min}(A^T M^T M A, A^T A)";
-  derivation.quantities = {quantity("ell", "\\ell", "\\inf_{|T(x)| = 1} |M T(x)|^2", ell, Sense::enclosure,
-                                    "the constant of (10)"),
-                           quantity("ell_ipopt", "\\ell_{Ipopt}", "\\inf_{|T(x)| = 1} |M T(x)|^2",
-                                    Interval(proposals[0]), Sense::sampled, "value found by Ipopt for (10)"),
-                           quantity("ell_nlopt", "\\ell_{NLopt}", reduced, Interval(proposals[1]),
-                                    Sense::sampled, "value found by NLopt, local search"),
-                           quantity("ell_nlopt_global", "\\ell_{DIRECT}", reduced, Interval(proposals[2]),
-                                    Sense::sampled, "value found by NLopt, global search"),
-                           quantity("argmin_omega", "\\omega_\\ell", "\\arg" + reduced, minimum.where(0),
-                                    Sense::enclosure, "the frequencies that can attain it, rad/s")};
+  derivation.quantities = {
+      ell_quantity("ell", "\\ell", "\\inf_{|T(x)| = 1} |M T(x)|^2", ell, Sense::enclosure,
+                   "the constant of (10)"),
+      ell_quantity("ell_ipopt", "\\ell_{Ipopt}", "\\inf_{|T(x)| = 1} |M T(x)|^2", Interval(proposals[0]),
+                   Sense::sampled, "value found by Ipopt for (10)"),
+      ell_quantity("ell_nlopt", "\\ell_{NLopt}", reduced, Interval(proposals[1]), Sense::sampled,
+                   "value found by NLopt, local search"),
+      ell_quantity("ell_nlopt_global", "\\ell_{DIRECT}", reduced, Interval(proposals[2]), Sense::sampled,
+                   "value found by NLopt, global search"),
+      ell_quantity("argmin_omega", "\\omega_\\ell", "\\arg" + reduced, minimum.where(0), Sense::enclosure,
+                   "the frequencies that can attain it, rad/s")};
 
   theorems::Condition tight;
   tight.id = "enclosed";

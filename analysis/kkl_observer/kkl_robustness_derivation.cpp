@@ -15,8 +15,8 @@ using theorems::Sense;
 
 constexpr const char* kSource = "docs/kkl-observer.md";
 
-theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value,
-                            Sense sense, std::string words) {
+theorems::Quantity robustness_quantity(std::string name, std::string symbol, std::string formula,
+                                       const Interval& value, Sense sense, std::string words) {
   theorems::Quantity result{
       std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt,
       sense,           std::move(words)};
@@ -110,18 +110,21 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestionOf<M>& que
   derivation.id = "kkl-robustness";
   derivation.title = "Bounds on the estimation errors under the assumed disturbance";
   derivation.quantities = {
-      quantity("frequency_error_bound", "b_\\omega", "\\sup_{t \\ge t_s} |\\hat\\omega - \\omega|",
-               bound(found.frequency_error_bound), Sense::at_most, "frequency error once settled, rad/s"),
-      quantity("amplitude_error_bound", "b_A", "\\sup_{t \\ge t_s} |\\hat A - A|",
-               bound(found.amplitude_error_bound), Sense::at_most,
-               "amplitude error once settled, signal units"),
-      quantity("settling_time", "t_s", "", found.settling_time, Sense::at_most, "settled after, s"),
-      quantity("largest_ell", "2 \\inf |M\\xi|^2 / |\\xi|^2", "", found.largest_ell, Sense::at_least,
-               "an ell up to which the disturbed inverse is exact"),
-      quantity("frequency_error_simulated", "", "\\max |\\hat\\omega - \\omega|", Interval(sampled.frequency),
-               Sense::sampled, "largest frequency error seen in simulation, rad/s"),
-      quantity("amplitude_error_simulated", "", "\\max |\\hat A - A|", Interval(sampled.amplitude),
-               Sense::sampled, "largest amplitude error seen in simulation, signal units")};
+      robustness_quantity("frequency_error_bound", "b_\\omega", "\\sup_{t \\ge t_s} |\\hat\\omega - \\omega|",
+                          bound(found.frequency_error_bound), Sense::at_most,
+                          "frequency error once settled, rad/s"),
+      robustness_quantity("amplitude_error_bound", "b_A", "\\sup_{t \\ge t_s} |\\hat A - A|",
+                          bound(found.amplitude_error_bound), Sense::at_most,
+                          "amplitude error once settled, signal units"),
+      robustness_quantity("settling_time", "t_s", "", found.settling_time, Sense::at_most,
+                          "settled after, s"),
+      robustness_quantity("largest_ell", "2 \\inf |M\\xi|^2 / |\\xi|^2", "", found.largest_ell,
+                          Sense::at_least, "an ell up to which the disturbed inverse is exact"),
+      robustness_quantity("frequency_error_simulated", "", "\\max |\\hat\\omega - \\omega|",
+                          Interval(sampled.frequency), Sense::sampled,
+                          "largest frequency error seen in simulation, rad/s"),
+      robustness_quantity("amplitude_error_simulated", "", "\\max |\\hat A - A|", Interval(sampled.amplitude),
+                          Sense::sampled, "largest amplitude error seen in simulation, signal units")};
   derivation.conditions = {
       regular, exists, bounded_condition(found, is_regular, M > 4 ? "signals" : "signal and disturbance")};
   derivation.verdict = rigor::conjunction(

@@ -9,7 +9,7 @@ namespace veritrack::rigor {
 
 namespace {
 
-SmallMatrix small(const MatrixView& matrix) {
+SmallMatrix small_square(const MatrixView& matrix) {
   if (matrix.rows() > kMostSmallRows || matrix.rows() != matrix.cols()) {
     throw std::length_error("the spectral radius is found of square matrices of up to 20 rows");
   }
@@ -19,11 +19,11 @@ SmallMatrix small(const MatrixView& matrix) {
 }  // namespace
 
 double spectral_radius(const MatrixView& matrix) {
-  return small(matrix).eigenvalues().cwiseAbs().maxCoeff();
+  return small_square(matrix).eigenvalues().cwiseAbs().maxCoeff();
 }
 
 std::vector<std::complex<double>> eigenvalues_by_size(const MatrixView& matrix) {
-  const auto found = small(matrix).eigenvalues();
+  const auto found = small_square(matrix).eigenvalues();
   std::vector<std::complex<double>> sorted(found.begin(), found.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
     const double difference = std::abs(a) - std::abs(b);
@@ -33,11 +33,11 @@ std::vector<std::complex<double>> eigenvalues_by_size(const MatrixView& matrix) 
 }
 
 double largest_argument(const MatrixView& matrix) {
-  return small(matrix).eigenvalues().cwiseArg().cwiseAbs().maxCoeff();
+  return small_square(matrix).eigenvalues().cwiseArg().cwiseAbs().maxCoeff();
 }
 
 DominantMode dominant_mode(const MatrixView& matrix) {
-  const Eigen::EigenSolver<SmallMatrix> solver(small(matrix));
+  const Eigen::EigenSolver<SmallMatrix> solver(small_square(matrix));
   Eigen::Index place = 0;
   const double radius = solver.eigenvalues().cwiseAbs().maxCoeff(&place);
   // Only the sizes of the entries of a pair of complex eigenvectors have a meaning.

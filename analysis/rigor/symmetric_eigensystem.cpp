@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-SmallMatrix small(const MatrixView& matrix) {
+SmallMatrix small_symmetric(const MatrixView& matrix) {
   if (matrix.rows() > kMostSmallRows || matrix.rows() != matrix.cols()) {
     throw std::length_error("an eigensystem is found of square matrices of up to 20 rows");
   }
@@ -60,16 +60,16 @@ Eigen::MatrixXd pencil_eigenvectors(const MatrixView& a, const MatrixView& b) {
 }
 
 Eigensystem symmetric_eigensystem(const MatrixView& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(small(symmetric));
+  const Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(small_symmetric(symmetric));
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 Eigensystem pencil_eigensystem(const MatrixView& a, const MatrixView& b) {
-  const auto root = cholesky(small(b));
+  const auto root = cholesky(small_symmetric(b));
   if (!root) {
     return {SmallVector::Constant(a.rows(), kNaN), SmallMatrix::Constant(a.rows(), a.rows(), kNaN)};
   }
-  Eigensystem system = symmetric_eigensystem(in_units_of(*root, small(a)));
+  Eigensystem system = symmetric_eigensystem(in_units_of(*root, small_symmetric(a)));
   root->triangularView<Eigen::Lower>().transpose().solveInPlace(system.vectors);
   return system;
 }

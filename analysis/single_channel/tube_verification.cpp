@@ -19,7 +19,7 @@ using rigor::IntervalMatrix;
 using rigor::IntervalVector;
 using trackers::ToneModel;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotBounded = std::numeric_limits<double>::infinity();
 
 /// Functions of the phase over a cell, and, with two variables, of the frequency over its interval.
 template <int Variables, int Degree>
@@ -49,10 +49,10 @@ ToneModel<Scalar> lifted(const ToneModel<Interval>& design) {
 
 /// The larger one; infinite unless both are numbers.
 double larger(double a, double b) {
-  if (a <= kInfinity && b <= kInfinity) {
+  if (a <= kNotBounded && b <= kNotBounded) {
     return std::max(a, b);
   }
-  return kInfinity;
+  return kNotBounded;
 }
 
 /// rho of condition (a) for one cell and all its targets; infinite when it could not be bounded.
@@ -103,7 +103,7 @@ double contraction(const InvariantTube& tube, const CurveCell& cell, double tube
     const ModelMatrix inverse = tube.cells[j].inverse.unaryExpr([](const Interval& x) { return Model(x); });
     const ModelMatrix product = inverse.lazyProduct(columns);
     const IntervalMatrix<9> ranges = product.unaryExpr([](const Model& x) { return x.range(); });
-    largest = larger(largest, rigor::norm_upper_bound(ranges).value_or(kInfinity));
+    largest = larger(largest, rigor::norm_upper_bound(ranges).value_or(kNotBounded));
   }
   return largest;
 }
@@ -111,7 +111,7 @@ double contraction(const InvariantTube& tube, const CurveCell& cell, double tube
 /// The largest of value(cell) over all cells.
 template <typename Value>
 double largest_over_cells(const InvariantTube& tube, const Value& value) {
-  std::vector<double> values(tube.cells.size(), kInfinity);
+  std::vector<double> values(tube.cells.size(), kNotBounded);
   for_each_cell(tube, [&](std::size_t i) { values[i] = value(tube.cells[i]); });
   double largest = 0.0;
   for (const double one : values) {

@@ -21,8 +21,6 @@ using rigor::Interval;
 using trackers::InstructionSet;
 using trackers::ToneModel;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Cells that cover a period of the phase and the band, the ends of the band first: there the bounds are the
 /// least good, so that a claim that says too much is refused at once.
 std::vector<WindowCells> cells_of(const Interval& band) {
@@ -78,7 +76,7 @@ bool look_at_all(const WindowTask& task, const std::vector<WindowCells>& batches
 }
 
 bool is_sensible(const ToneModel<Interval>& design, const Interval& band, const WindowClaim& claim) {
-  const auto positive = [](double x) { return x > 0.0 && x < kInfinity; };
+  const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   const WindowAssumption& assumption = claim.assumption;
   // cannot bind (design.q1, design.q2, design.r): questions are well posed, and without q1 no set is looked
   // for (certify_phases).
@@ -150,7 +148,8 @@ std::optional<VerifiedWindow> verify_window(const ToneModel<Interval>& design, c
   if (batches.empty() || !look_at_all(task_of(design, claim, starts), batches, answers, holds)) {
     return std::nullopt;
   }
-  VerifiedWindow window{{kInfinity, kInfinity, kInfinity}, std::vector<bool>(starts.size(), true)};
+  constexpr double kNoFloor = std::numeric_limits<double>::infinity();
+  VerifiedWindow window{{kNoFloor, kNoFloor, kNoFloor}, std::vector<bool>(starts.size(), true)};
   for (const WindowAnswers& found : answers) {
     window.floor = {
         std::min(window.floor.p11, *std::min_element(std::begin(found.p11), std::end(found.p11))),

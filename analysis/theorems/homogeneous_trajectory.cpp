@@ -13,7 +13,7 @@ namespace {
 
 using rigor::Interval;
 using rigor::IntervalVector;
-using Covariance = trackers::FactoredCovariance<Interval>;
+using IntervalCovariance = trackers::FactoredCovariance<Interval>;
 using Estimate = trackers::QuadratureEstimate<Interval>;
 
 /// 2^exponent; below the normal range, the interval from 0 to the least normal number.
@@ -34,12 +34,12 @@ void rescale(HomogeneousState& state) {
   }
 }
 
-Covariance to_interval(const trackers::FactoredCovariance<double>& p) {
+IntervalCovariance to_interval(const trackers::FactoredCovariance<double>& p) {
   return {Interval(p.conditional_11), Interval(p.conditional_12), Interval(p.conditional_22),
           Interval(p.regression_1),   Interval(p.regression_2),   Interval(p.frequency_variance)};
 }
 
-trackers::FactoredCovariance<double> midpoint(const Covariance& p) {
+trackers::FactoredCovariance<double> midpoint(const IntervalCovariance& p) {
   return {rigor::midpoint(p.conditional_11), rigor::midpoint(p.conditional_12),
           rigor::midpoint(p.conditional_22), rigor::midpoint(p.regression_1),
           rigor::midpoint(p.regression_2),   rigor::midpoint(p.frequency_variance)};
@@ -47,7 +47,7 @@ trackers::FactoredCovariance<double> midpoint(const Covariance& p) {
 
 /// z' P^-1 z, from the factors: (z - u z3)' M^-1 (z - u z3) + z3^2 / d. Empty unless M and d are certainly
 /// positive.
-Interval energy(const Covariance& p, const IntervalVector<3>& z) {
+Interval energy(const IntervalCovariance& p, const IntervalVector<3>& z) {
   const Interval e1 = z(0) - p.regression_1 * z(2);
   const Interval e2 = z(1) - p.regression_2 * z(2);
   const Interval determinant = p.conditional_11 * p.conditional_22 - square(p.conditional_12);
@@ -98,12 +98,12 @@ HomogeneousStep step_homogeneous(const HomogeneousState& state, const Eigen::Vec
                                  const trackers::ToneModel<Interval>& design) {
   const IntervalVector<3> x = rigor::to_interval(true_state);
   const IntervalVector<3> z = rigor::to_interval(state.direction);  // in units of 2^exponent
-  const Covariance covariance = to_interval(state.covariance);
+  const IntervalCovariance covariance = to_interval(state.covariance);
   const Interval unit = power_of_two(state.exponent);
 
   // The Riccati recursion along zbar = x - z.
   const Estimate zbar{x(0) - unit * z(0), x(1) - unit * z(1), x(2) - unit * z(2), covariance};
-  const Covariance predicted = trackers::time_update(zbar, design).covariance;
+  const IntervalCovariance predicted = trackers::time_update(zbar, design).covariance;
 
   // [I - K H] F_x z is the prediction F_x z corrected by a measurement of zero.
   const IntervalVector<3> carried = linearised(x, z, design.epsilon);

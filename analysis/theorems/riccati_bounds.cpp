@@ -35,19 +35,19 @@ void validate(const LinearWindow& window) {
   }
 }
 
-SmallMatrix zero(Eigen::Index size) {
+SmallMatrix zero_matrix(Eigen::Index size) {
   return SmallMatrix::Constant(size, size, Interval(0.0));
 }
 
 SmallMatrix sum(const std::vector<SmallMatrix>& matrices, Eigen::Index size) {
-  SmallMatrix total = zero(size);
+  SmallMatrix total = zero_matrix(size);
   for (const SmallMatrix& matrix : matrices) {
     total += matrix;
   }
   return total;
 }
 
-SmallMatrix congruence(const SmallMatrix& factor, const SmallMatrix& matrix) {
+SmallMatrix symmetric_product(const SmallMatrix& factor, const SmallMatrix& matrix) {
   const SmallMatrix product = factor * matrix;
   return symmetrized(product * factor.transpose());
 }
@@ -88,7 +88,7 @@ std::optional<WindowGramians> window_gramians(const LinearWindow& window) {
         return std::nullopt;
       }
       backward = *earlier;
-      gramians.noise[i] = congruence(forward, window.process_noises[i]);
+      gramians.noise[i] = symmetric_product(forward, window.process_noises[i]);
       forward = (forward * window.transitions[i]).eval();
     }
     const SmallMatrix seen = window.outputs[i] * backward;
@@ -110,10 +110,10 @@ std::optional<SmallMatrix> covariance_bound(const WindowGramians& gramians) {
     return std::nullopt;
   }
   SmallMatrix bound = *inverse;
-  SmallMatrix earlier = zero(bound.rows());  // sum of M_i, i <= j
+  SmallMatrix earlier = zero_matrix(bound.rows());  // sum of M_i, i <= j
   for (std::size_t j = 0; j < gramians.noise.size(); ++j) {
     earlier += gramians.information[j];
-    bound += congruence(*inverse * earlier, gramians.noise[j]);
+    bound += symmetric_product(*inverse * earlier, gramians.noise[j]);
   }
   return bound;
 }
@@ -124,10 +124,10 @@ std::optional<SmallMatrix> information_bound(const WindowGramians& gramians) {
     return std::nullopt;
   }
   SmallMatrix bound = *inverse;
-  SmallMatrix earlier = zero(bound.rows());  // D_i
+  SmallMatrix earlier = zero_matrix(bound.rows());  // D_i
   for (std::size_t i = 1; i < gramians.information.size(); ++i) {
     earlier += gramians.noise[i - 1];
-    bound += congruence(*inverse * earlier, gramians.information[i]);
+    bound += symmetric_product(*inverse * earlier, gramians.information[i]);
   }
   return bound;
 }

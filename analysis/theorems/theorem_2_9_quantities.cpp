@@ -13,7 +13,7 @@ using Constants = Theorem29Constants;
 constexpr std::string_view kNever = "";
 constexpr std::string_view kDirectly = "q_1";
 
-struct Row {
+struct QuantityRow {
   std::string_view name;
   std::string_view symbol;
   std::string_view formula;  // empty: it depends on the variant
@@ -23,9 +23,9 @@ struct Row {
 };
 
 constexpr std::string_view kList = "thesis, list at the end of section 3.5";
-constexpr std::string_view kBounds = "thesis, section 2.4.3";
+constexpr std::string_view kSectionOnBounds = "thesis, section 2.4.3";
 
-constexpr auto kRows = std::to_array<Row>({
+constexpr auto kQuantityRows = std::to_array<QuantityRow>({
     {"R_x", "R_x", R"(R_x)", "thesis, (2.26) and section 3.5", &Constants::state_bound, kNever},
     {"epsilon_r", R"(\epsilon_r)", "", "", &Constants::epsilon_r, kNever},
     {"rho_1", R"(\rho_1)", R"(2(R_x + \epsilon_r))", kList, &Constants::rho_1, kNever},
@@ -39,9 +39,9 @@ constexpr auto kRows = std::to_array<Row>({
     {"a_2", "a_2", "q_1", kList, &Constants::a_2, kNever},
     {"b_1", "b_1", "", "", &Constants::b_1, kNever},
     {"b_2", "b_2", "", "", &Constants::b_2, kNever},
-    {"p", "p", R"(a_1 + \frac{1}{b_1})", kBounds, &Constants::p, kNever},
-    {"q", "q", R"(\frac{1}{a_2} + b_2)", kBounds, &Constants::q, kDirectly},
-    {"s", "s", R"(\frac{1}{a_2} + b_2 + \rho_1^2 \delta_1^{-1})", kBounds, &Constants::s, kDirectly},
+    {"p", "p", R"(a_1 + \frac{1}{b_1})", kSectionOnBounds, &Constants::p, kNever},
+    {"q", "q", R"(\frac{1}{a_2} + b_2)", kSectionOnBounds, &Constants::q, kDirectly},
+    {"s", "s", R"(\frac{1}{a_2} + b_2 + \rho_1^2 \delta_1^{-1})", kSectionOnBounds, &Constants::s, kDirectly},
     {"gamma", R"(\gamma)", R"(\frac{\gamma_{\mathrm{fraction}}}{s p^2})",
      "thesis, Theorem 2.8 (the fraction is free)", &Constants::gamma, "s"},
     {"beta", R"(\beta)", R"((pq)^{1/2})", "thesis, (2.36)", &Constants::beta, "q"},
@@ -101,7 +101,7 @@ std::optional<std::string> why_not_applicable(const std::string& name, const The
   if (!may_be_zero(input.q1)) {
     return std::nullopt;
   }
-  for (const Row& row : kRows) {
+  for (const QuantityRow& row : kQuantityRows) {
     if (row.name != name || row.divides_by_q1_through == kNever) {
       continue;
     }
@@ -122,8 +122,8 @@ std::optional<std::string> why_not_applicable(const std::string& name, const The
 std::vector<Quantity> theorem_2_9_quantities(Theorem29Variant variant, const Theorem29Input& input,
                                              const Theorem29Constants& constants) {
   std::vector<Quantity> quantities;
-  quantities.reserve(kRows.size());
-  for (const Row& row : kRows) {
+  quantities.reserve(kQuantityRows.size());
+  for (const QuantityRow& row : kQuantityRows) {
     Quantity quantity{std::string(row.name),   std::string(row.symbol), std::string(row.formula),
                       std::string(row.source), constants.*row.value,    std::nullopt};
     for (const VariantText& text : kVariantTexts) {

@@ -12,7 +12,7 @@ using rigor::Interval;
 using rigor::IntervalMatrix;
 using rigor::Verdict;
 
-SmallMatrix process_noise(const IntervalDesign& design) {
+SmallMatrix noise_of_a_step(const IntervalDesign& design) {
   SmallMatrix noise = SmallMatrix::Constant(3, 3, Interval(0.0));
   noise(0, 0) = noise(1, 1) = design.q1;
   noise(2, 2) = design.q2;
@@ -72,7 +72,7 @@ std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const Erro
   LinearWindow system;
   system.transitions.assign(steps, turned);
   system.transitions.back() = straight;  // into the frame of the predicted phase
-  system.process_noises.assign(steps, process_noise(design));
+  system.process_noises.assign(steps, noise_of_a_step(design));
   system.outputs.assign(steps + 1, output);
   system.measurement_noises.assign(steps + 1, measurement_noise);
   const auto gramians = window_gramians(system);

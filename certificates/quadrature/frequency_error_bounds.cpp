@@ -18,11 +18,11 @@ namespace {
 
 using quadrature::CertifiedSet;
 using rigor::Interval;
-using State = trackers::PolarFrameState<double>;
+using PolarState = trackers::PolarFrameState<double>;
 using Input = trackers::PolarInput<double>;
 
 constexpr std::size_t kShortest = 30;
-constexpr std::size_t kLongest = 300;
+constexpr std::size_t kLongestShown = 300;
 
 /// The tracker, its signal, and the admissible disturbances.
 struct Loop {
@@ -31,21 +31,21 @@ struct Loop {
   double slew = 0.0;
 
   /// After the noise direction and the slew, out of a few, that push the frequency error out the most.
-  [[nodiscard]] State pushed(const State& state) const {
+  [[nodiscard]] PolarState pushed(const PolarState& state) const {
     constexpr int kDirections = 16;
-    State worst = trackers::polar_frame_map<double>(state, {0.0, 0.0, 0.0, 0.0}, design);
+    PolarState worst = trackers::polar_frame_map<double>(state, {0.0, 0.0, 0.0, 0.0}, design);
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / kDirections;
       for (const double change : {-slew, slew}) {
         const Input input{noise * std::cos(angle), noise * std::sin(angle), change, 0.0};
-        const State next = trackers::polar_frame_map<double>(state, input, design);
+        const PolarState next = trackers::polar_frame_map<double>(state, input, design);
         worst = std::fabs(next.error.frequency) > std::fabs(worst.error.frequency) ? next : worst;
       }
     }
     return worst;
   }
 
-  [[nodiscard]] std::vector<double> run(State state, bool disturbed, std::size_t samples) const {
+  [[nodiscard]] std::vector<double> run(PolarState state, bool disturbed, std::size_t samples) const {
     std::vector<double> errors;
     errors.reserve(samples);
     while (errors.size() < samples) {
@@ -57,14 +57,14 @@ struct Loop {
   }
 };
 
-State state_of(const rigor::Vector<3>& error, const rigor::Matrix<3>& covariance) {
+PolarState state_of(const rigor::Vector<3>& error, const rigor::Matrix<3>& covariance) {
   return {{error[0], error[1], error[2]}, trackers::PolarCovariance<double>::from_matrix(covariance)};
 }
 
 /// Starts where |T e| = R and one of the errors is as large as possible, with the covariance at either end.
-std::vector<State> rim_of_set(const CertifiedSet& set) {
+std::vector<PolarState> rim_of_set(const CertifiedSet& set) {
   const rigor::Matrix<3> inverse = set.metric.inverse();
-  std::vector<State> starts;
+  std::vector<PolarState> starts;
   for (int i = 0; i < 3; ++i) {
     const rigor::Vector<3> error = set.radius * (inverse * inverse.row(i).transpose().normalized());
     starts.push_back(state_of(error, set.covariance_lower));
@@ -74,8 +74,8 @@ std::vector<State> rim_of_set(const CertifiedSet& set) {
 }
 
 /// The corners of the assumed starts, as far as they are not each other's mirror images.
-std::vector<State> corners(const quadrature::StartBox& box, const rigor::Matrix<3>& covariance) {
-  std::vector<State> starts;
+std::vector<PolarState> corners(const quadrature::StartBox& box, const rigor::Matrix<3>& covariance) {
+  std::vector<PolarState> starts;
   for (const double amplitude : {box.amplitude_error.lower(), box.amplitude_error.upper()}) {
     for (const double phase : {box.phase_error.lower(), box.phase_error.upper()}) {
       starts.push_back(state_of({amplitude, phase, box.frequency_error.upper()}, covariance));
@@ -88,7 +88,8 @@ std::vector<State> corners(const quadrature::StartBox& box, const rigor::Matrix<
 std::vector<double> bound_from(quadrature::CertifiedLevel level) {
   std::vector<double> bound;
   const double settled = 2.0 * level.ultimate_frequency_error();
-  while (bound.size() < kLongest && !(bound.size() >= kShortest && settled > 0.0 && level.settled(settled))) {
+  while (bound.size() < kLongestShown &&
+         !(bound.size() >= kShortest && settled > 0.0 && level.settled(settled))) {
     bound.push_back(level.frequency_error());
     level.step();
   }
@@ -106,7 +107,7 @@ std::optional<FrequencyErrorBounds> frequency_error_bounds(const Certificate& ce
     return std::nullopt;
   }
   FrequencyErrorBounds tube;
-  std::vector<State> starts;
+  std::vector<PolarState> starts;
   Loop loop;
   {
     const rigor::UpwardRounding upward;
@@ -122,7 +123,7 @@ std::optional<FrequencyErrorBounds> frequency_error_bounds(const Certificate& ce
         return std::nullopt;
       }
       tube.bound = quadrature_particulars(certificate).followed_starts->frequency_errors;
-      tube.bound.resize(std::min(tube.bound.size(), kLongest));
+      tube.bound.resize(std::min(tube.bound.size(), kLongestShown));
       starts = corners(quadrature::assumed_starts(question), rigor::midpoint(problem->initial_covariance));
     } else {
       tube.bound = bound_from(
@@ -134,7 +135,7 @@ std::optional<FrequencyErrorBounds> frequency_error_bounds(const Certificate& ce
   if (!tube.from_assumed_starts) {
     starts = rim_of_set(named->set);
   }
-  for (const State& start : starts) {
+  for (const PolarState& start : starts) {
     for (const bool disturbed : {false, true}) {
       tube.runs.push_back(loop.run(start, disturbed, tube.bound.size()));
     }

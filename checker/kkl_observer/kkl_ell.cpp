@@ -170,7 +170,7 @@ bool no_minimizer(const Excitation& ratio_of, const Ball& low, const Ball& high,
          no_minimizer(ratio_of, middle, high, least, rises, depth - 1);
 }
 
-constexpr int kDepth = 60;
+constexpr int kFrequencyDepth = 60;
 
 }  // namespace
 
@@ -185,7 +185,7 @@ bool is_true(const EllEnclosure& enclosure, const KklDesign& design) {
       certainly_at_most(design.frequency_low, attained) && certainly_at_most(attained, design.frequency_high);
   const Excitation ratio(design.lambda);
   return inside && certainly_at_most(ratio.at(attained), high) &&
-         Infimum(ratio, low).is_bound(design.frequency_low, design.frequency_high, kDepth);
+         Infimum(ratio, low).is_bound(design.frequency_low, design.frequency_high, kFrequencyDepth);
 }
 
 std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& design,
@@ -205,8 +205,9 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
   const bool enclosed = is_true({low, high, attained}, design);
   const Ball last = high_of(*minimizer);
   const Excitation ratio(design.lambda);
-  const bool located = enclosed && no_minimizer(ratio, design.frequency_low, attained, high, false, kDepth) &&
-                       no_minimizer(ratio, last, design.frequency_high, high, true, kDepth);
+  const bool located = enclosed &&
+                       no_minimizer(ratio, design.frequency_low, attained, high, false, kFrequencyDepth) &&
+                       no_minimizer(ratio, last, design.frequency_high, high, true, kFrequencyDepth);
   const Ball nothing = Ball::everything();
   const Ball value = enclosed ? low : nothing;
   found.quantities = {{"ell", enclosed ? Range(low, high) : Range(nothing)},

@@ -4,9 +4,6 @@ namespace veritrack::checker {
 
 namespace {
 
-constexpr int kDepth = 60;
-constexpr int kCells = 40'000;
-
 /// The mean-value form: all values over a cell, from the one at its middle and the derivatives.
 Ball centred(const Ball& at_middle, const ProjectedCell::Slope& over, const std::array<Ball, 2>& radius) {
   return at_middle + Ball::within(over.along[0] * radius[0]) + Ball::within(over.along[1] * radius[1]);
@@ -106,7 +103,8 @@ ProjectedSignal<S> ProjectedCells::signal(const S& frequency, const S& phase) co
 }
 
 bool ProjectedCells::always(const Statement& statement) const {
-  int cells = kCells;
+  constexpr int kDepth = 60;
+  int cells = 40'000;
   return is_true(statement, box_, kDepth, cells);
 }
 

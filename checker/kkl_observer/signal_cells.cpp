@@ -6,10 +6,7 @@ namespace veritrack::checker {
 
 namespace {
 
-constexpr int kDepth = 60;
-constexpr int kCells = 40'000;
-
-Ball dot(const std::array<Ball, kFilters>& x, const std::array<Ball, kFilters>& y) {
+Ball dot_over_filters(const std::array<Ball, kFilters>& x, const std::array<Ball, kFilters>& y) {
   Ball sum(0.0);
   for (std::size_t i = 0; i < kFilters; ++i) {
     sum += x[i] * y[i];
@@ -60,7 +57,7 @@ SignalCells::SignalCells(const KklDesign& design, const Ball& settling_time)
 void SignalCells::find_rows() {
   const auto& [a, b, c, d] = lambda_;
   const Ball sum = a + b + c + d;
-  const Ball squares = dot(lambda_, lambda_);
+  const Ball squares = dot_over_filters(lambda_, lambda_);
   gram_ = zero;  // 4 squares - sum^2, without its cancellation
   for (const Ball& rate : lambda_) {
     for (const Ball& other : lambda_) {
@@ -74,13 +71,13 @@ void SignalCells::find_rows() {
   // det(xi, lambda, 1) of the first and of the last three filters, then Gram and Schmidt.
   const FourFilters first{b - c, c - a, a - b, zero};
   const FourFilters last{zero, c - d, d - b, b - c};
-  const Ball first_norm = sqrt(dot(first, first));
-  const Ball share = dot(first, last) / square(first_norm);
+  const Ball first_norm = sqrt(dot_over_filters(first, first));
+  const Ball share = dot_over_filters(first, last) / square(first_norm);
   FourFilters rest;
   for (std::size_t i = 0; i < kFilters; ++i) {
     rest[i] = last[i] - share * first[i];
   }
-  const Ball rest_norm = sqrt(dot(rest, rest));
+  const Ball rest_norm = sqrt(dot_over_filters(rest, rest));
   for (std::size_t i = 0; i < kFilters; ++i) {
     rows_[kAcross][i] = first[i] / first_norm;
     rows_[kAcross + 1][i] = rest[i] / rest_norm;
@@ -127,7 +124,8 @@ KklSignal<S> SignalCells::signal(const std::array<S, kVariables>& x) const {
 }
 
 bool SignalCells::always(const Statement& statement) const {
-  int cells = kCells;
+  constexpr int kDepth = 60;
+  int cells = 40'000;
   return is_true(statement, box_, kDepth, cells);
 }
 

@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr std::size_t size_of_block(int degree) {
-  return places_up_to(BallPolynomial::kMostDegree - degree);
-}
-
 }  // namespace
 
 BallPolynomial::BallPolynomial(double constant) {

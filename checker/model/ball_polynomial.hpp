@@ -145,4 +145,9 @@ BallPolynomial clamped(const BallPolynomial& x, const BallPolynomial& low, const
 BallPolynomial chosen(const BallPolynomial& positive, const BallPolynomial& a, const BallPolynomial& b);
 BallPolynomial sign_of(const BallPolynomial& x);
 
+/// The number of coefficients of a monomial of the vectors of this degree.
+constexpr std::size_t size_of_block(int degree) {
+  return places_up_to(BallPolynomial::kMostDegree - degree);
+}
+
 }  // namespace veritrack::checker

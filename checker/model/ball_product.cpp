@@ -12,10 +12,6 @@ namespace veritrack::checker {
 
 namespace {
 
-constexpr std::size_t size_of_block(int degree) {
-  return places_up_to(BallPolynomial::kMostDegree - degree);
-}
-
 /// The products of two polynomials in s and z that are not above a degree.
 template <int degree>
 constexpr auto products_up_to() {

@@ -13,7 +13,7 @@ namespace veritrack::checker {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotBounded = std::numeric_limits<double>::infinity();
 
 /// (m, p) in the middle of a part, as sums of squares of their coefficients: N N' and so on.
 class StackedLength {
@@ -58,7 +58,7 @@ class StackedLength {
   /// For one mu.
   struct Turned {
     SymmetricMatrix of_x, of_others;
-    double of_squares = kInfinity;  ///< infinite for a mu that is not above the spread
+    double of_squares = kNotBounded;  ///< infinite for a mu that is not above the spread
   };
   [[nodiscard]] Turned turned(double mu) const {
     std::vector<std::vector<double>> rest(states_, std::vector<double>(states_, 0.0));
@@ -80,7 +80,7 @@ class StackedLength {
   /// Where |x| counts as t of the unit ball of all vectors.
   [[nodiscard]] double at(const Turned& of_mu, double t) const {
     if (!std::isfinite(of_mu.of_squares)) {
-      return kInfinity;
+      return kNotBounded;
     }
     SymmetricMatrix linear(size_);
     if (of_gaussian_ > 0.0) {

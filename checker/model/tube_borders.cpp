@@ -5,17 +5,11 @@
 
 #include "checker/model/length_bound.hpp"
 #include "checker/model/place_matrix.hpp"
+#include "checker/model/tube_evidence.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-Ball low_end(const PhaseTube& tube) {
-  return Ball(tube.frequency) - Ball(tube.half_width);
-}
-Ball high_end(const PhaseTube& tube) {
-  return Ball(tube.frequency) + Ball(tube.half_width);
-}
 
 /// From one cell into another, over frequencies about `middle`, half_width to both sides.
 struct Crossing {

@@ -39,14 +39,6 @@ bool is_shrinking(const PhaseTube& tube) {
          });
 }
 
-Ball low_end(const PhaseTube& tube) {
-  return Ball(tube.frequency) - Ball(tube.half_width);
-}
-
-Ball high_end(const PhaseTube& tube) {
-  return Ball(tube.frequency) + Ball(tube.half_width);
-}
-
 /// `shrinks`: rates are given.
 PhaseTube tube_from(const Tree& cell, std::size_t all_states, std::size_t estimated, bool shrinks,
                     Objections& objections) {
@@ -135,6 +127,13 @@ GaussianTerms terms_from(const Tree& tree, Objections& objections) {
 }
 
 }  // namespace
+
+Ball low_end(const PhaseTube& tube) {
+  return Ball(tube.frequency) - Ball(tube.half_width);
+}
+Ball high_end(const PhaseTube& tube) {
+  return Ball(tube.frequency) + Ball(tube.half_width);
+}
 
 TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections, std::size_t estimated) {
   TubeSet result;

@@ -46,6 +46,10 @@ struct PhaseTube {
   std::size_t frequencies = 1;
 };
 
+/// The ends of its frequencies.
+Ball low_end(const PhaseTube& tube);
+Ball high_end(const PhaseTube& tube);
+
 /// Gaussian noise of a deviation in each sample (signal units), and the statement on tubes in it
 /// (gaussian_drift.hpp).
 struct GaussianTerms {

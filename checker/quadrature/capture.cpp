@@ -16,7 +16,7 @@ namespace veritrack::checker {
 namespace {
 
 constexpr std::size_t kMostBoxes = 200;
-constexpr int kHalvings = 2;
+constexpr int kImageHalvings = 2;
 
 /// A box that contains all assumed starts, and one that they contain.
 StartBox outward(const Design& d) {
@@ -117,8 +117,9 @@ Ball follow_all(const Cover& cover, const Followed& followed, bool symmetric, bo
     if (image < index) {
       continue;  // followed before, to the smaller level
     }
-    const std::optional<Ball> reached = followed.reach(
-        cover.boxes[index], cover.samples[index], min(cover.levels[index], cover.levels[image]), kHalvings);
+    const std::optional<Ball> reached =
+        followed.reach(cover.boxes[index], cover.samples[index],
+                       min(cover.levels[index], cover.levels[image]), kImageHalvings);
     if (!reached) {
       objections.push_back("box " + std::to_string(index) + " of " + std::to_string(total) +
                            " is not proved to enter its set");

@@ -8,13 +8,12 @@
 
 namespace veritrack::checker {
 
-namespace {
-
-/// The first row and column are zero except on the diagonal.
 bool amplitude_is_apart(const Matrix3& m) {
   return certainly_equal(m[0][1], zero) && certainly_equal(m[0][2], zero) && certainly_equal(m[1][0], zero) &&
          certainly_equal(m[2][0], zero);
 }
+
+namespace {
 
 Covariance<Ball> covariance_of(const Matrix3& p) {
   return {p[0][0], p[1][1], p[1][2], p[2][2]};

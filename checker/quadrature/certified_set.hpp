@@ -13,6 +13,9 @@
 
 namespace veritrack::checker {
 
+/// The first row and column are zero except on the diagonal.
+bool amplitude_is_apart(const Matrix3& m);
+
 /// A certified set as the certificate gives it.
 struct CertifiedSet {
   std::string purpose;

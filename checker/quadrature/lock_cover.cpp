@@ -16,12 +16,12 @@ namespace veritrack::checker {
 namespace {
 
 constexpr std::int64_t kMostCellsInPart = 200'000;
-constexpr int kDepth = 48;
+constexpr int kCoverDepth = 48;
 constexpr unsigned kMostThreads = 64;
 constexpr std::array<int, 4> kParts{4, 4, 4, 4};
 
 /// One part of the cover.
-struct Part {
+struct CoverPart {
   LockCell cell;
   std::int64_t cells = 0;
   bool proved = false;
@@ -61,7 +61,7 @@ bool has_mirror_image(const LockFilter& filter, const LockSet& set) {
 
 /// A grid over |u1|, |u2|, |u3| <= R, 0 <= s <= R/sqrt(gamma), R^2 = 2 L, which covers the set; with u3 >= 0
 /// where the mirror image covers the rest. Nothing where the numbers are no doubles.
-std::vector<Part> cover_of(const LockSet& set, bool halved) {
+std::vector<CoverPart> cover_of(const LockSet& set, bool halved) {
   const double radius = sqrt(two * set.level).upper_double();
   const double most = sqrt(two * set.level / set.weight).upper_double();
   const std::array<double, 4> low{-radius, -radius, halved ? 0.0 : -radius, 0.0};
@@ -71,13 +71,13 @@ std::vector<Part> cover_of(const LockSet& set, bool halved) {
       !certainly_at_most(two * set.level, set.weight * square(Ball(most)))) {
     return {};
   }
-  std::vector<Part> parts{{{low, high}}};
+  std::vector<CoverPart> parts{{{low, high}}};
   for (std::size_t i = 0; i < low.size(); ++i) {
     const auto node = [&](int k) {
       return k == kParts[i] ? high[i] : low[i] + (high[i] - low[i]) * k / kParts[i];
     };
-    std::vector<Part> next;
-    for (const Part& part : parts) {
+    std::vector<CoverPart> next;
+    for (const CoverPart& part : parts) {
       for (int k = 0; k < kParts[i]; ++k) {
         next.push_back(part);
         next.back().cell.low[i] = node(k);
@@ -92,7 +92,7 @@ std::vector<Part> cover_of(const LockSet& set, bool halved) {
 /// Examines free parts one after the other. Returns what was thrown, if anything.
 class Workers {
  public:
-  Workers(const LockInequality& inequality, std::vector<Part>& parts)
+  Workers(const LockInequality& inequality, std::vector<CoverPart>& parts)
       : inequality_(inequality), parts_(parts) {}
 
   void run() {
@@ -130,7 +130,7 @@ class Workers {
   void work() {
     for (std::size_t k = next_++; k < parts_.size() && !stopped_; k = next_++) {
       try {
-        parts_[k].proved = is_proved(inequality_, parts_[k].cell, kDepth, parts_[k].cells);
+        parts_[k].proved = is_proved(inequality_, parts_[k].cell, kCoverDepth, parts_[k].cells);
         stopped_ = stopped_ || !parts_[k].proved;
       } catch (...) {
         if (!stopped_.exchange(true)) {
@@ -141,7 +141,7 @@ class Workers {
   }
 
   const LockInequality& inequality_;
-  std::vector<Part>& parts_;
+  std::vector<CoverPart>& parts_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stopped_ = false;
   std::exception_ptr thrown_;
@@ -152,10 +152,10 @@ class Workers {
 bool holds_in_set(const LockFilter& filter, const LockSet& set, const LockLeft& left, std::int64_t& cells) {
   const bool mirrors = has_mirror_image(filter, set) && certainly_equal(left.offset[1], zero) &&
                        certainly_equal(left.offset[2], zero);
-  std::vector<Part> parts = cover_of(set, mirrors);
+  std::vector<CoverPart> parts = cover_of(set, mirrors);
   const LockInequality inequality(filter, set, left);
   Workers(inequality, parts).run();
-  for (const Part& part : parts) {
+  for (const CoverPart& part : parts) {
     cells += part.cells;
     if (!part.proved) {
       return false;

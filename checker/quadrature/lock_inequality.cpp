@@ -10,15 +10,14 @@ namespace veritrack::checker {
 
 namespace {
 
-using namespace lock_form;
 namespace proposal = lock_proposal;
 
 constexpr std::size_t kCorners = kLockCorners / 2;
 
-void scale(SquareMatrix<kSize>& m, const Factors<Ball>& factors, bool by_size) {
-  for (std::size_t i = 0; i < kSize; ++i) {
+void scale(SquareMatrix<lock_form::kSize>& m, const lock_form::Factors<Ball>& factors, bool by_size) {
+  for (std::size_t i = 0; i < lock_form::kSize; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      if (const Ball* factor = factor_at(factors, i, j)) {
+      if (const Ball* factor = lock_form::factor_at(factors, i, j)) {
         m[i][j] = (by_size ? abs(*factor) : *factor) * m[i][j];
       }
     }
@@ -31,22 +30,22 @@ void scale(SquareMatrix<kSize>& m, const Factors<Ball>& factors, bool by_size) {
 struct LockInequality::Forms {
   Forms(const LockBox& box, const LockStep& step, const Metric& next, const LockSet& set,
         const LockFilter& filter) {
-    const Parts parts = parts_of(step, next, set.deviation, filter.r);
+    const lock_form::Parts parts = lock_form::parts_of(step, next, set.deviation, filter.r);
     for (std::size_t end = 0; end < 2; ++end) {
-      over[end] = over_box<kSize>(parts.value, parts.slope, box.ends[end], box.half_widths);
+      over[end] = over_box<lock_form::kSize>(parts.value, parts.slope, box.ends[end], box.half_widths);
       rough.parts[end] = proposal::near(over[end].centre);
     }
   }
   /// For a multiplier, with the rest taken off.
-  void finish(const SquareMatrix<kSize>& constant, const Factors<Ball>& factors,
-              const std::array<double, kSize>& weights) {
-    for (OverBox<kSize>& form : over) {
+  void finish(const SquareMatrix<lock_form::kSize>& constant, const lock_form::Factors<Ball>& factors,
+              const std::array<double, lock_form::kSize>& weights) {
+    for (OverBox<lock_form::kSize>& form : over) {
       scale(form.centre, factors, false);
-      for (SquareMatrix<kSize>& way : form.ways) {
+      for (SquareMatrix<lock_form::kSize>& way : form.ways) {
         scale(way, factors, false);
       }
       scale(form.rest, factors, true);
-      for (std::size_t i = 0; i < kRest; ++i) {
+      for (std::size_t i = 0; i < lock_form::kRest; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
           form.centre[i][j] += constant[i][j];
         }
@@ -55,7 +54,7 @@ struct LockInequality::Forms {
     }
   }
 
-  std::array<OverBox<kSize>, 2> over;
+  std::array<OverBox<lock_form::kSize>, 2> over;
   proposal::Ends rough;
 };
 
@@ -69,7 +68,7 @@ LockInequality::LockInequality(const LockFilter& filter, const LockSet& set, Loc
   // I - w^2 (S e3)(S e3)' in the rows of the error.
   const std::array<Ball, 3> t3{zero, left_.next.coupling, left_.next.frequency};
   const Ball walked = square(set.walk);
-  for (std::size_t i = 0; i < kRest; ++i) {
+  for (std::size_t i = 0; i < lock_form::kRest; ++i) {
     constant_[i][i] = one;
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -94,15 +93,15 @@ bool LockInequality::seems_to_fail(const LockBox& box, const LockStep& step, con
   const double twice = near_twice_level(set_, box);
   const double rest = left_.near_middle(box, levels_.near_middle(step)) + walk_loss_.near();
   proposal::Ends middle{forms.rough.parts, {rest, rest}};
-  for (std::size_t i = 0; i < kSize; ++i) {
+  for (std::size_t i = 0; i < lock_form::kSize; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       middle.parts[0][i][j] = 0.5 * (forms.rough.parts[0][i][j] + forms.rough.parts[1][i][j]);
     }
   }
   middle.parts[1] = middle.parts[0];
   const double multiplier = proposal::propose_multiplier(middle, rough_constant_, rough_deviation_, rough_r_);
-  const double left = proposal::left_over(proposal::form(middle.parts[0], rough_constant_, rest,
-                                                         factors_of(multiplier, rough_deviation_, rough_r_)));
+  const double left = proposal::left_over(proposal::form(
+      middle.parts[0], rough_constant_, rest, lock_form::factors_of(multiplier, rough_deviation_, rough_r_)));
   return twice <= 2.0 * set_.level.near() && !(left > 0.0);
 }
 
@@ -161,14 +160,15 @@ bool LockInequality::proves(Forms& forms, const LockCorners& rest) const {
   if (!(multiplier > 0.0) || !std::isfinite(multiplier)) {
     return false;
   }
-  const auto rough_factors = factors_of(multiplier, rough_deviation_, rough_r_);
-  forms.finish(constant_, factors_of(Ball(multiplier), set_.deviation, filter_.r),
+  const auto rough_factors = lock_form::factors_of(multiplier, rough_deviation_, rough_r_);
+  forms.finish(constant_, lock_form::factors_of(Ball(multiplier), set_.deviation, filter_.r),
                proposal::propose_weights(proposal::form(forms.rough.parts[1], rough_constant_,
                                                         forms.rough.rest[1], rough_factors)));
   for (std::size_t k = 0; k < kLockCorners; ++k) {
-    SquareMatrix<kSize> n = at_corner(forms.over[k / kCorners], k % kCorners);
-    n[kRest][kRest] += rest[k];
-    if (!(proposal::left_over(proposal::near(n)) > 0.0) || !certainly_positive(left_over(std::move(n)))) {
+    SquareMatrix<lock_form::kSize> n = at_corner(forms.over[k / kCorners], k % kCorners);
+    n[lock_form::kRest][lock_form::kRest] += rest[k];
+    if (!(proposal::left_over(proposal::near(n)) > 0.0) ||
+        !certainly_positive(lock_form::left_over(std::move(n)))) {
       return false;
     }
   }

@@ -10,16 +10,6 @@
 
 namespace veritrack::checker {
 
-namespace {
-
-/// The first row and column are zero except on the diagonal.
-bool amplitude_is_apart(const Matrix3& m) {
-  return certainly_equal(m[0][1], zero) && certainly_equal(m[0][2], zero) && certainly_equal(m[1][0], zero) &&
-         certainly_equal(m[2][0], zero);
-}
-
-}  // namespace
-
 bool has_form_of_metric(const Matrix3& metric) {
   return amplitude_is_apart(metric) && certainly_equal(metric[2][1], zero);
 }

@@ -8,9 +8,9 @@
 
 namespace veritrack::checker {
 
-namespace {
+namespace step_form {
 
-using namespace step_form;
+namespace {
 
 /// (s, beta, d1, d2): a = s A cos(beta), chi = s C sin(beta), and the corrected estimate is d away from the
 /// one that the mean gain gives without noise.
@@ -64,14 +64,14 @@ Matrix<Ball> combined(const Form<S>& form, double lambda, const Part& part) {
 }
 
 /// Multipliers, and a C for which C m C' is near the identity in the middle of a cell: any are valid.
-struct Proposal {
+struct MultiplierProposal {
   double lambda, tau;
   Matrix<Ball> inverse_factor;
 };
-std::optional<Proposal> propose(const Form<Ball>& at, const Ball& tangent_squared) {
+std::optional<MultiplierProposal> propose(const Form<Ball>& at, const Ball& tangent_squared) {
   const Form<double> rough{near(at.fixed), near(at.by_lambda), near(at.by_inverse), true};
   const double lambda = propose_lambda(rough);
-  Proposal proposal{lambda, propose_tau(rough, lambda, std::sqrt(tangent_squared.near())), {}};
+  MultiplierProposal proposal{lambda, propose_tau(rough, lambda, std::sqrt(tangent_squared.near())), {}};
   if (!(proposal.lambda > 0.0) || !(proposal.tau >= 0.0)) {
     return std::nullopt;
   }
@@ -192,17 +192,19 @@ class CellCover {
 
 }  // namespace
 
+}  // namespace step_form
+
 bool contracts(const Setting& setting, std::int64_t& cells) {
   constexpr int kScales = 4;
   constexpr int kAngles = 8;
   constexpr int kDepth = 24;
   const double half_turn = pi().upper_double();
-  CellCover cover(setting, cells);
+  step_form::CellCover cover(setting, cells);
   for (int i = 0; i < kScales; ++i) {
     for (int j = 0; j < kAngles; ++j) {
       // The mirror image (psi, nu, P12, P13, v2, w) -> -(...) commutes with the step: 0 <= beta <= pi
       // suffices.
-      const Cell cell{
+      const step_form::Cell cell{
           {i / static_cast<double>(kScales), half_turn * j / kAngles, -HUGE_VAL, -HUGE_VAL},
           {(i + 1) / static_cast<double>(kScales), half_turn * (j + 1) / kAngles, HUGE_VAL, HUGE_VAL}};
       if (!cover.is_proved(cell, kDepth)) {

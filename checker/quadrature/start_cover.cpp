@@ -10,7 +10,7 @@ namespace veritrack::checker {
 
 namespace {
 
-constexpr double kMostSamples = 1000;
+constexpr double kMostSamplesOfBox = 1000;
 
 bool contains(const StartBox& box, const StartBox& region) {
   bool all = true;
@@ -106,7 +106,7 @@ Cover read_cover(const Tree& evidence) {
     const auto number = [&](std::size_t i) { return exact_number(row.at(i)); };
     cover.boxes.push_back({{number(0), number(2), number(4)}, {number(1), number(3), number(5)}});
     const double samples = number(6).near();
-    if (!(samples >= 0.0) || samples > kMostSamples || samples != std::floor(samples)) {
+    if (!(samples >= 0.0) || samples > kMostSamplesOfBox || samples != std::floor(samples)) {
       throw Malformed("not a number of samples");
     }
     cover.samples.push_back(static_cast<int>(samples));

@@ -12,7 +12,7 @@ bool tolerates(const SteadyPieces& cover, const Design& design) {
   return certainly_at_most(design.noise, noise_of(cover)) && certainly_at_most(design.slew, slew_of(cover));
 }
 
-void improve(std::optional<Ball>& most, const Ball& value) {
+void raise_to(std::optional<Ball>& most, const Ball& value) {
   most = most ? max(*most, value) : value;
 }
 
@@ -100,9 +100,9 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
     covers = check_steady_covers(*evidence, design, {*branch, *fine}, cells, objections);
     for (const SteadyPieces& cover : covers) {
       if (cover.verified) {
-        improve(promises.noise, noise_of(cover));
-        improve(promises.slew, slew_of(cover));
-        improve(promises.noise_error, largest_error(cover));
+        raise_to(promises.noise, noise_of(cover));
+        raise_to(promises.slew, slew_of(cover));
+        raise_to(promises.noise_error, largest_error(cover));
       }
     }
   }

@@ -111,7 +111,7 @@ std::size_t most_blurred(const Symmetric<Chord>& low, const Symmetric<Chord>& hi
 }
 
 /// The number of parts into which turns of this many rad are cut.
-int parts_of(double reach) {
+int parts_of_turn(double reach) {
   return reach < 0.02 ? 1 : reach < 0.1 ? 3 : 5;
 }
 
@@ -295,7 +295,7 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
   const bool small = cell.high[0] - cell.low[0] < kSmall && cell.high[1] - cell.low[1] < kSmall &&
                      cell.to - cell.from < kSmall;
   // The turns one part after the other, the middle first: an odd number of them.
-  const int parts = parts_of((level.level * more.turn).near());
+  const int parts = parts_of_turn((level.level * more.turn).near());
   const Ball half_part = more.turn / Ball(double(parts));
   for (int part = 0; part < parts; ++part) {
     const int away = part % 2 == 0 ? -part : part + 1;

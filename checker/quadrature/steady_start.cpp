@@ -17,10 +17,10 @@ bool keeps(const SteadyStart& start, const SteadyStartClaim& claim) {
 }
 
 /// The starts at some frequencies of a cell.
-class Part {
+class StartsOfCell {
  public:
-  Part(const Design& design, const SteadySet& set, const StartCovariance& covariance, const SteadyCell& cell,
-       const Ball& frequency)
+  StartsOfCell(const Design& design, const SteadySet& set, const StartCovariance& covariance,
+               const SteadyCell& cell, const Ball& frequency)
       : design_(design),
         set_(set),
         covariance_(covariance),
@@ -144,7 +144,7 @@ std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& s
   }
   const auto of = [&](const auto& self, const SteadyCell& cell, double from, double to,
                       int halvings) -> std::optional<SteadyStart> {
-    const Part part(design, set, covariance, cell, Ball::hull(Ball(from), Ball(to)));
+    const StartsOfCell part(design, set, covariance, cell, Ball::hull(Ball(from), Ball(to)));
     std::optional<SteadyStart> found;
     if (still) {
       found = part.followed(most, claim);

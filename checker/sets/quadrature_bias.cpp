@@ -124,8 +124,8 @@ bool QuadratureBranch::add_cell(const Ball& frequencies) {
   if (cells_.empty()) {
     // From the exact estimate, simulated.
     ToneState<double> x{0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0};
-    constexpr int kSettling = 3000;
-    for (int k = 0; k < kSettling; ++k) {
+    constexpr int kSettlingSamples = 3000;
+    for (int k = 0; k < kSettlingSamples; ++k) {
       x = quadrature_step<double>(
           x, 0.0, {values_.q1.near(), values_.q2.near(), values_.r.near(), values_.epsilon.near()});
     }

@@ -11,7 +11,7 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball everywhere = Ball::within(one);
+const Ball whole_band = Ball::within(one);
 
 /// The meaning of "around", rad/sample, and a double above it, with room for a frequency that is not a
 /// double.
@@ -204,8 +204,8 @@ std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChann
     } else if (curve) {
       established = locked(*curve, curve->here, curve->near_here[0]);
       add_errors(quantities, "", curve->family, curve->here, curve->near_here[error], found);
-      if (has_around && locked(*curve, everywhere, curve->distance[0])) {
-        add_errors(quantities, "_around", curve->family, everywhere, curve->distance[error], found);
+      if (has_around && locked(*curve, whole_band, curve->distance[0])) {
+        add_errors(quantities, "_around", curve->family, whole_band, curve->distance[error], found);
       }
     }
     if (established) {

@@ -138,11 +138,11 @@ class Window {
 };
 
 /// Values of a variable.
-struct Part {
+struct ValueRange {
   double low, high;
   [[nodiscard]] Ball middle() const { return half * (Ball(low) + Ball(high)); }
   [[nodiscard]] Ball half_width() const { return half * (Ball(high) - Ball(low)); }
-  [[nodiscard]] std::array<Part, 2> halves() const {
+  [[nodiscard]] std::array<ValueRange, 2> halves() const {
     return {{{low, middle().near()}, {middle().near(), high}}};
   }
 };
@@ -152,7 +152,7 @@ class WindowCover {
  public:
   WindowCover(const Window& window, std::int64_t& cells) : window_(window), cells_(cells) {}
 
-  bool is_proved(const Part& phase, const Part& frequency, double settling, int level) {
+  bool is_proved(const ValueRange& phase, const ValueRange& frequency, double settling, int level) {
     ++cells_;
     if (window_.is_proved({phase.middle(), phase.half_width(), zero},
                           {frequency.middle(), zero, frequency.half_width()}, settling)) {

@@ -10,7 +10,7 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball all = Ball::within(one);  // the t of all frequencies
+const Ball all_frequencies = Ball::within(one);  // the t of all frequencies
 
 /// The rows of the curve as series about the points base + slope x.
 template <slong Terms>
@@ -90,7 +90,7 @@ class CurveTube {
     using Model = Series<6>;
     const auto parts = static_cast<std::size_t>(4 * family_.harmonics);
     const Ball step(family_.half_width);
-    const Model t = Model::linear(all, one);
+    const Model t = Model::linear(all_frequencies, one);
     const Model omega = Model::linear(frequencies(), step);
     ToneState<Ball> largest;
     for (std::size_t part = 0; part < parts; ++part) {
@@ -127,7 +127,7 @@ class CurveTube {
       const std::vector<Matrix> at_middle = columns<2>(cell.middle(), one, zero, zero, v, box);
       Matrix rest = square(x) * columns<3>(cell, one, zero, zero, v, box)[2];
       if (family_.half_width != 0.0) {
-        rest = rest + all * columns<2>(cell, zero, all, one, v, box)[1];
+        rest = rest + all_frequencies * columns<2>(cell, zero, all_frequencies, one, v, box)[1];
       }
       const Matrix before = rate * (root * v);
       const Matrix gram = before.transposed() * before;
@@ -149,7 +149,9 @@ class CurveTube {
   }
 
  private:
-  [[nodiscard]] Ball frequencies() const { return family_.half_width == 0.0 ? frequency_ : at(all); }
+  [[nodiscard]] Ball frequencies() const {
+    return family_.half_width == 0.0 ? frequency_ : at(all_frequencies);
+  }
   [[nodiscard]] Ball at(const Ball& t) const { return Ball(family_.center) + Ball(family_.half_width) * t; }
 
   /// The columns of DG V about the curve at base + by_phase s and t + by_t s: a matrix for each power of s.

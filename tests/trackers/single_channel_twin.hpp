@@ -2,10 +2,11 @@
 // any analysis.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 
@@ -53,18 +54,15 @@ inline TwinDifference twin_difference(const SingleChannelValues& values,
   const auto exact = stepped(values, estimate_as<Wide>(start), measurement);
   const WideMatrix p = exact.covariance.matrix();
   const WideMatrix d = computed.covariance.matrix() - p;
-  const Eigen::Matrix<Wide, 2, 2> zz = d.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d zz = d.topLeftCorner<2, 2>().cast<double>();
   const Eigen::Matrix<Wide, 3, 1> e = computed.state() - exact.state();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<WideMatrix> shares(d, p);
-  return {
-      static_cast<double>(e.head<2>().norm()),
-      static_cast<double>(std::fabs(e(2))),
-      static_cast<double>(
-          Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Wide, 2, 2>>(zz).eigenvalues().cwiseAbs().maxCoeff()),
-      static_cast<double>(std::hypot(d(0, 2), d(1, 2))),
-      static_cast<double>(std::fabs(d(2, 2))),
-      static_cast<double>(shares.eigenvalues().cwiseAbs().maxCoeff()),
-      static_cast<double>(std::sqrt(e.dot(computed.covariance.matrix().inverse() * e)))};
+  return {static_cast<double>(e.head<2>().norm()),
+          static_cast<double>(std::fabs(e(2))),
+          oracle::symmetric_eigenvalues(zz).cwiseAbs().maxCoeff(),
+          static_cast<double>(std::hypot(d(0, 2), d(1, 2))),
+          static_cast<double>(std::fabs(d(2, 2))),
+          static_cast<double>(oracle::relative_radius(d, p)),
+          static_cast<double>(std::sqrt(e.dot(computed.covariance.matrix().inverse() * e)))};
 }
 
 /// States within these bounds, at an amplitude of 1: lengths of z and u, eigenvalues of M, and d.

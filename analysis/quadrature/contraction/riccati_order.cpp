@@ -12,11 +12,12 @@ namespace veritrack::quadrature {
 namespace {
 
 using rigor::Interval;
-using Block = BlockCovariance<Interval>;
-using Design = trackers::ToneModel<Interval>;
+using IntervalBlock = BlockCovariance<Interval>;
+using IntervalDesign = trackers::ToneModel<Interval>;
 
 /// sign * (P - U Phi U') as a lower triangle, U the turn with this tangent (and positive cosine).
-rigor::LowerTriangle<3> difference(const Block& p, const Block& phi, const Interval& tangent, double sign) {
+rigor::LowerTriangle<3> difference(const IntervalBlock& p, const IntervalBlock& phi, const Interval& tangent,
+                                   double sign) {
   const Interval one(1.0);
   const Interval cosine_squared = one / (one + rigor::square(tangent));
   const Interval sine_squared = rigor::square(tangent) * cosine_squared;
@@ -35,7 +36,8 @@ rigor::LowerTriangle<3> difference(const Block& p, const Block& phi, const Inter
 
 class OrderCheck {
  public:
-  OrderCheck(const Block& lower, const Block& upper, const Design& design, const Interval& room)
+  OrderCheck(const IntervalBlock& lower, const IntervalBlock& upper, const IntervalDesign& design,
+             const Interval& room)
       : lower_(lower),
         upper_(upper),
         least_(scaled(lower, Interval(1.0) + room)),
@@ -66,8 +68,8 @@ class OrderCheck {
   };
 
   [[nodiscard]] bool keeps_over(const Part& part) const {
-    const Block low = riccati_update(lower_, part.rho, design_).filtered;
-    const Block high = riccati_update(upper_, part.rho, design_).filtered;
+    const IntervalBlock low = riccati_update(lower_, part.rho, design_).filtered;
+    const IntervalBlock high = riccati_update(upper_, part.rho, design_).filtered;
     return rigor::certainly_positive_definite(difference(least_, low, part.tangent, -1.0)) &&
            rigor::certainly_positive_definite(difference(most_, high, part.tangent, 1.0));
   }
@@ -84,19 +86,19 @@ class OrderCheck {
             with(Interval::from_bounds(middle, whole.upper()))};
   }
 
-  static Block scaled(const Block& p, const Interval& factor) {
+  static IntervalBlock scaled(const IntervalBlock& p, const Interval& factor) {
     return {factor * p.p11, factor * p.p22, factor * p.p23, factor * p.p33};
   }
 
-  Block lower_, upper_;
-  Block least_, most_;  ///< between which the images must be
-  Design design_;
+  IntervalBlock lower_, upper_;
+  IntervalBlock least_, most_;  ///< between which the images must be
+  IntervalDesign design_;
 };
 
 }  // namespace
 
-bool certainly_keeps_covariance_between(const Block& lower, const Block& upper, const Design& design,
-                                        const std::vector<TurnBound>& turns,
+bool certainly_keeps_covariance_between(const IntervalBlock& lower, const IntervalBlock& upper,
+                                        const IntervalDesign& design, const std::vector<TurnBound>& turns,
                                         double room VERITRACK_DECLARED_CALL_SITE) {
   VERITRACK_MUTANT_RETURNS(true)
   rigor::require_upward_rounding();

@@ -14,7 +14,7 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using Design = trackers::ToneModel<Interval>;
+using IntervalDesign = trackers::ToneModel<Interval>;
 
 BlockCovariance<Interval> block(const rigor::Matrix<3>& p) {
   return {Interval(p(0, 0)), Interval(p(1, 1)), Interval(p(1, 2)), Interval(p(2, 2))};
@@ -35,7 +35,7 @@ bool certainly_positive_definite(const BlockCovariance<Interval>& p VERITRACK_CA
 }
 
 /// The first hypothesis on the inputs that does not hold, as a sentence; empty when all hold.
-std::string objection(const Design& design, const CertifiedSet& set) {
+std::string objection(const IntervalDesign& design, const CertifiedSet& set) {
   const Interval zero(0.0);
   const auto& t = set.metric;
   // cannot bind (design.r, design.q2, design.q1): no order is kept without them. Lower bounds grow by less
@@ -78,7 +78,7 @@ std::string objection(const Design& design, const CertifiedSet& set) {
 }
 
 /// The amplitude error and chi = psi + nu are at most R times the lengths of these rows of T^-1.
-StepSetting<Interval> setting_of(const Design& design, const CertifiedSet& set) {
+StepSetting<Interval> setting_of(const IntervalDesign& design, const CertifiedSet& set) {
   const BlockMetric<Interval> t{Interval(set.metric(0, 0)), Interval(set.metric(1, 1)),
                                 Interval(set.metric(1, 2)), Interval(set.metric(2, 2))};
   const Interval radius(set.radius);
@@ -103,7 +103,7 @@ StepConstants<Interval> constants_of(const CertifiedSet& set) {
 
 }  // namespace
 
-Verification verify_certified_set(const Design& design, const CertifiedSet& proposal,
+Verification verify_certified_set(const IntervalDesign& design, const CertifiedSet& proposal,
                                   const TrackedSignal& signal) {
   const rigor::UpwardRounding upward;
   Verification result;

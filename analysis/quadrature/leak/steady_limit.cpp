@@ -33,7 +33,7 @@ SteadySamples samples_of(const SteadyRequest& request, double SteadyRequest::*wh
 }
 
 /// The metric of level 1.
-Matrix<3> metric_of(const SteadySamples& samples, const Shape& shape, double radius) {
+Matrix<3> metric_of_level_one(const SteadySamples& samples, const Shape& shape, double radius) {
   const Matrix<3> metric = samples.metric(shape.of_metric);
   return metric / (radius > 0.0 ? radius / metric.inverse().row(2).norm() : shape.scale);
 }
@@ -50,7 +50,7 @@ class LimitSearch {
     const SteadySamples samples = samples_of(request_, which_, size);
     const Shape shape(x, target_);
     const double radius = which_ == &SteadyRequest::radius ? size : request_.radius;
-    auto settings = samples.settings(metric_of(samples, shape, radius));
+    auto settings = samples.settings(metric_of_level_one(samples, shape, radius));
     const double noise = which_ == &SteadyRequest::noise ? size : request_.noise;
     if (!samples.find_band(settings, noise, shape.goal, kCoarseAngles)) {
       return kNoSense;
@@ -107,7 +107,7 @@ class LimitSearch {
     const Shape shape(x, target_);
     const SteadySamples samples(request_, SteadyJudgement::sharp);
     const double radius = which_ == &SteadyRequest::radius ? size : request_.radius;
-    return SteadyLimit{metric_of(samples, shape, radius), shape.goal, size, x};
+    return SteadyLimit{metric_of_level_one(samples, shape, radius), shape.goal, size, x};
   }
 
   static constexpr double kTolerance = 0.003;

@@ -15,7 +15,6 @@ namespace veritrack::quadrature {
 namespace {
 
 using rigor::Matrix;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// How much is to spare: of its own bounds for the covariance, and of the level.
 struct Strictness {
@@ -145,7 +144,7 @@ std::optional<SteadySet> propose_steady_set(const SteadyRequest& request, const 
   set.noise = request.noise;
   set.slew = request.slew;
   std::vector<SteadySetting<double>> settings;
-  double at_high = kInfinity;
+  double at_high = std::numeric_limits<double>::infinity();
   for (const double goal : {0.95, 0.9, 0.85, 0.8, 0.75, 0.7}) {
     auto trial = sampler.settings(set.metric);
     if (!sampler.find_band(trial, set.noise, goal, kFine)) {

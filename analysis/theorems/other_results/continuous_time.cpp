@@ -11,13 +11,13 @@ namespace {
 
 using rigor::Interval;
 
-const std::string kTheorem = "thesis, theorems 2.1 and 2.2";
+const std::string kContinuousTheorems = "thesis, theorems 2.1 and 2.2";
 
 /// The estimate keeps |z| <= 1 + kBand.
 constexpr double kBand = 0.25;
 
 /// Constants for estimates with |z| <= 1 + kBand; N_0 = nu I, the best choice for the sound bound.
-struct Constants {
+struct ContinuousConstants {
   Interval leak;    ///< epsilon_c, a sample
   Interval q_0;     ///< Q >= q_0 I
   Interval spread;  ///< (|Q| + |Lambda|^2) / (2 alpha_0), alpha_0 = epsilon_c
@@ -26,11 +26,11 @@ struct Constants {
   Interval sound;   ///< |x_0 - m_0| below this decays to zero
 };
 
-Constants constants(const Theorem29Input& input) {
+ContinuousConstants constants(const Theorem29Input& input) {
   const Interval two(2.0);
   const Interval one(1.0);
   const Interval band(kBand);
-  Constants c;
+  ContinuousConstants c;
   c.leak = -rigor::log(one - input.epsilon);
   c.q_0 = smallest_process_noise(input);
   // Lambda R^(-1/2) H = [[-alpha_0, 0], [0, -alpha_0], [x2, -x1]] leaves the symmetric part -epsilon_c I.
@@ -45,7 +45,8 @@ Constants constants(const Theorem29Input& input) {
 
 /// The right side of (2.16) as printed, n = 3, with the state in units of 1/scale: the bound on |x_0 - m_0|
 /// in the old units. Gamma = Q^-1 G, G = [[b, 0, 0], [0, b, 0], [x2, -x1, b + epsilon_c]], b = beta_0 = 1.
-Interval printed_bound(const Theorem29Input& input, const Constants& c, double scale, const Interval& nu) {
+Interval printed_bound(const Theorem29Input& input, const ContinuousConstants& c, double scale,
+                       const Interval& nu) {
   const Interval one(1.0);
   const Interval units = square(Interval(scale));
   const Interval g_squared = Interval(2.0) + square(Interval(1.0 + kBand)) + square(one + c.leak);
@@ -59,7 +60,7 @@ Interval printed_bound(const Theorem29Input& input, const Constants& c, double s
 Derivation evaluate_baras_bensoussan_james(const TrackerInput& unchecked) {
   const rigor::UpwardRounding upward;
   const TrackerInput input = with_finite_members(unchecked);
-  const Constants c = constants(input.theorem_2_9);
+  const ContinuousConstants c = constants(input.theorem_2_9);
   const Interval start_covariance = is_finite(c.nu) ? c.nu : Interval(1.0);
   const Interval printed = printed_bound(input.theorem_2_9, c, 1.0, start_covariance);
   const Interval rescaled = printed_bound(input.theorem_2_9, c, 1024.0, start_covariance);

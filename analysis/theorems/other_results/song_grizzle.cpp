@@ -11,7 +11,7 @@ namespace {
 
 using rigor::Interval;
 
-const std::string kTheorem = "thesis, theorems 2.4 and 2.5";
+const std::string kSongGrizzleTheorems = "thesis, theorems 2.4 and 2.5";
 
 /// The constants of theorem 2.4 for prediction errors e(k|k-1) up to `largest_error`.
 struct LocalConstants {
@@ -60,7 +60,7 @@ Derivation evaluate_song_grizzle(const TrackerInput& unchecked) {
       "bounded-F",
       R"(\sup_x \lVert F(x) \rVert < \infty \text{, so } \lVert F(x) \rVert < |z| \text{ for large } |z|)",
       {"|F| at |z| = 2^500", first_derivative_norm(far, input.epsilon)}, {"|z|", far}));
-  add_guarantee(derivation, {Interval::empty(), Interval::empty(), Interval::empty()}, kTheorem,
+  add_guarantee(derivation, {Interval::empty(), Interval::empty(), Interval::empty()}, kSongGrizzleTheorems,
                 "The theorem is for signals without noise.");
   derivation.notes.emplace_back(
       "The assumptions concern every state; song-grizzle/local evaluates the argument near the signal.");
@@ -88,22 +88,25 @@ Derivation evaluate_song_grizzle_local(const TrackerInput& unchecked) {
   derivation.title = "The argument of Song and Grizzle (1993), suprema over the states near the signal";
   const std::string divides = "It divides by min(q_1, q_2), which may be 0 in this design.";
   add_error_equation(derivation, equation);
-  add_quantity(derivation, {"p", "p", R"(\lvert P(k \mid k-1)^{-1} \rvert \le p = 1/\underline q)", kTheorem},
+  add_quantity(derivation,
+               {"p", "p", R"(\lvert P(k \mid k-1)^{-1} \rvert \le p = 1/\underline q)", kSongGrizzleTheorems},
                c.p, divides);
-  add_quantity(
-      derivation,
-      {"q", "q", R"(\lvert P(k \mid k-1) \rvert \le q = \bar a^2 \bar p + \max(q_1, q_2))", kTheorem}, c.q);
+  add_quantity(derivation,
+               {"q", "q", R"(\lvert P(k \mid k-1) \rvert \le q = \bar a^2 \bar p + \max(q_1, q_2))",
+                kSongGrizzleTheorems},
+               c.q);
   add_quantity(
       derivation,
       {"r", "r",
        R"(\lvert P(k \mid k)^{-1} + F' Q^{-1} F \rvert \le r = 1/\underline p + \bar a^2/\underline q)",
-       kTheorem},
+       kSongGrizzleTheorems},
       c.r, divides);
-  add_quantity(derivation, {"phi", R"(\phi)", R"(\frac{1}{2} \kappa_f (pq)^2)", kTheorem}, c.phi, divides);
-  add_quantity(derivation, {"prediction_error", R"(q^{1/2} V(0, e_0)^{1/2})", "", kTheorem}, c.largest_error,
+  add_quantity(derivation, {"phi", R"(\phi)", R"(\frac{1}{2} \kappa_f (pq)^2)", kSongGrizzleTheorems}, c.phi,
                divides);
-  add_quantity(derivation, {"gamma", R"(\gamma)", R"(-\varphi)", kTheorem}, gamma, divides);
-  add_guarantee(derivation, {start(c), Interval::empty(), sqrt(one - gamma / c.p)}, kTheorem,
+  add_quantity(derivation, {"prediction_error", R"(q^{1/2} V(0, e_0)^{1/2})", "", kSongGrizzleTheorems},
+               c.largest_error, divides);
+  add_quantity(derivation, {"gamma", R"(\gamma)", R"(-\varphi)", kSongGrizzleTheorems}, gamma, divides);
+  add_guarantee(derivation, {start(c), Interval::empty(), sqrt(one - gamma / c.p)}, kSongGrizzleTheorems,
                 "The theorem is for signals without noise.");
   const AssumedNoise noise = assumed_noise(input);
   derivation.conditions = {

@@ -12,7 +12,7 @@ namespace {
 
 using rigor::Interval;
 
-const std::string kTheorem = "thesis, theorem 2.6";
+const std::string kTotalStabilityTheorem = "thesis, theorem 2.6";
 
 /// The Lipschitz constant of f(k, .) over the radius of the error equation, per unit of radius.
 Interval lipschitz_rate(const ErrorEquation& equation) {
@@ -74,10 +74,10 @@ Derivation evaluate(const TrackerInput& unchecked, bool with_noise) {
         derivation,
         {"eta", R"(\eta)",
          R"(\frac{1}{r}\left(\lVert I - KH \rVert \lvert w \rvert + \lVert K \rVert \lvert v \rvert\right))",
-         kTheorem},
+         kTotalStabilityTheorem},
         eta);
     add_guarantee(derivation, {start, gap / equation.beta * r / equation.gain, Interval(1.0) - gap},
-                  kTheorem);
+                  kTotalStabilityTheorem);
     derivation.conditions.push_back(compare("2.6", R"(\beta(\zeta + \eta) + \alpha < 1)",
                                             {"beta (zeta + eta)", equation.beta * (zeta + eta)}, margin));
     derivation.notes.emplace_back(

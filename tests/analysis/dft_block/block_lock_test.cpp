@@ -12,6 +12,7 @@
 #include "analysis/dft_block/false_lock.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace {
@@ -127,7 +128,7 @@ TEST_CASE("a false lock and the exact one: the tracker, started anywhere in the 
     }
     const rigor::NearestRounding nearest;
     Random random(4404);
-    const rigor::Matrix<kStates> back = lock->set.metric.inverse();
+    const rigor::Matrix<kStates> back = oracle::inverse(lock->set.metric);
     for (int run = 0; run < 20; ++run) {
       rigor::Vector<kStates> direction;
       for (int i = 0; i < kStates; ++i) {

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "analysis/kkl_observer/kkl_excitation_ratio.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
@@ -185,7 +185,7 @@ double ratio_on_a_grid(const Eigen::Matrix<double, M, 1>& lambda, double frequen
     for (int i = 0; i < M; ++i) {
       l.row(i) << lambda(i), 1.0, (direction / std::complex<double>(lambda(i), frequency)).imag();
     }
-    const double root = Eigen::JacobiSVD<Eigen::Matrix<double, M, 3>>(l).singularValues().prod();
+    const double root = oracle::singular_values(l).prod();
     smallest = std::min(smallest, root * root / l.col(2).squaredNorm());
   }
   return smallest;

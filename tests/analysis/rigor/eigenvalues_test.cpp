@@ -19,14 +19,14 @@ Eigen::VectorXd sorted(Eigen::VectorXd values) {
 }
 
 /// `truth` known to a relative error of 1e-18 or so.
-bool holds(const Interval& enclosure, long double truth) {
+bool holds_eigenvalue(const Interval& enclosure, long double truth) {
   const long double margin = 4e-19L * std::max(1.0L, std::fabs(truth));
   return static_cast<long double>(enclosure.lower()) <= truth + margin &&
          static_cast<long double>(enclosure.upper()) >= truth - margin;
 }
 
 template <typename Enclosures>
-double widest(const Enclosures& enclosures) {
+double widest_eigenvalue(const Enclosures& enclosures) {
   const UpwardRounding upward;
   double result = 0.0;
   for (Eigen::Index i = 0; i < enclosures.size(); ++i) {
@@ -48,14 +48,14 @@ TEST_CASE("eigenvalues that are known exactly, simple and multiple: Hadamard sim
     const auto values = symmetric_eigenvalues(to_interval(a));
     REQUIRE(values);
     CHECK(contains(*values, sorted(truth)));
-    CHECK(widest(*values) <= 2e-13 * bound);
+    CHECK(widest_eigenvalue(*values) <= 2e-13 * bound);
 
     const double reach = std::ldexp(1.0, -static_cast<int>(random.below(40)));
     const DynamicIntervalMatrix box = symmetric_box_around(random, a, reach);
     const auto spread = symmetric_eigenvalues(box);
     REQUIRE(spread);
     CHECK(contains(*spread, sorted(truth)));
-    CHECK(widest(*spread) <= 4.0 * static_cast<double>(size) * reach + 2e-13 * bound);
+    CHECK(widest_eigenvalue(*spread) <= 4.0 * static_cast<double>(size) * reach + 2e-13 * bound);
     for (Eigen::Index i = 0; i + 1 < size; ++i) {
       CHECK((*spread)(i).lower() <= (*spread)(i + 1).lower());
       CHECK((*spread)(i).upper() <= (*spread)(i + 1).upper());
@@ -77,9 +77,9 @@ TEST_CASE("second differences: 2 - 2 cos(k pi / (n + 1))") {
     for (Eigen::Index k = 0; k < size; ++k) {
       const long double angle = static_cast<long double>(k + 1) * std::numbers::pi_v<long double> /
                                 static_cast<long double>(size + 1);
-      CHECK(holds((*values)(k), 2.0L - 2.0L * std::cos(angle)));
+      CHECK(holds_eigenvalue((*values)(k), 2.0L - 2.0L * std::cos(angle)));
     }
-    CHECK(widest(*values) <= 1e-13);
+    CHECK(widest_eigenvalue(*values) <= 1e-13);
   }
 }
 
@@ -95,9 +95,9 @@ TEST_CASE("2 x 2 eigenvalues by the closed formula") {
     REQUIRE(values);
     const long double mean = (static_cast<long double>(a) + c) / 2;
     const long double offset = std::hypot((static_cast<long double>(a) - c) / 2, static_cast<long double>(b));
-    CHECK(holds((*values)[0], mean - offset));
-    CHECK(holds((*values)[1], mean + offset));
-    CHECK(widest(*values) <= 1e-14);
+    CHECK(holds_eigenvalue((*values)[0], mean - offset));
+    CHECK(holds_eigenvalue((*values)[1], mean + offset));
+    CHECK(widest_eigenvalue(*values) <= 1e-14);
   }
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("pencils whose eigenvalues are known exactly: congruent to diagonal on
     if (const auto values = generalized_eigenvalues(to_interval(a), to_interval(b))) {
       ++verified;
       CHECK(contains(*values, truth));
-      CHECK(widest(*values) <= 1e-8);
+      CHECK(widest_eigenvalue(*values) <= 1e-8);
     }
     const DynamicIntervalMatrix box_a = symmetric_box_around(random, a, 1e-6);
     const DynamicIntervalMatrix box_b = symmetric_box_around(random, b, 1e-6);
@@ -148,10 +148,10 @@ TEST_CASE("well-conditioned pencils are tight, and a pencil with the identity is
   // The characteristic polynomial is (3 - x)((x - 3)^2 - 3).
   const long double root = std::sqrt(3.0L);
   for (const auto& enclosures : {*pencil, *values}) {
-    CHECK(holds(enclosures[0], 3.0L - root));
+    CHECK(holds_eigenvalue(enclosures[0], 3.0L - root));
     CHECK(contains(enclosures[1], 3.0));
-    CHECK(holds(enclosures[2], 3.0L + root));
-    CHECK(widest(enclosures) <= 1e-13);
+    CHECK(holds_eigenvalue(enclosures[2], 3.0L + root));
+    CHECK(widest_eigenvalue(enclosures) <= 1e-13);
   }
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("only the symmetric members count") {
   const auto values = symmetric_eigenvalues(a);
   REQUIRE(values);
   CHECK(contains(*values, Vector<2>(1.0, 2.0)));
-  CHECK(widest(*values) <= 1e-13);
+  CHECK(widest_eigenvalue(*values) <= 1e-13);
   a(1, 0) = Interval(-1.0);  // no symmetric matrix left
   CHECK_FALSE(symmetric_eigenvalues(a));
   CHECK_FALSE(generalized_eigenvalues(a, IntervalMatrix<2>::Identity().eval()));

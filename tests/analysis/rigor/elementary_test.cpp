@@ -391,8 +391,10 @@ TEST_CASE("functional equations") {
 
 TEST_CASE("empty operands give empty results, unbounded ones what is true of all real numbers") {
   const rigor::UpwardRounding mode;
+  using Function = Interval (*)(const Interval&);
+  const Function functions[] = {rigor::sin, rigor::cos, rigor::tan, rigor::atan, rigor::exp, rigor::log};
   for (const Interval& empty : {Interval(), Interval(kNaN), Interval(kInfinity), bounds(2.0, 1.0)}) {
-    for (const auto function : {rigor::sin, rigor::cos, rigor::tan, rigor::atan, rigor::exp, rigor::log}) {
+    for (const Function function : functions) {
       CHECK(rigor::is_empty(function(empty)));
     }
     CHECK(rigor::is_empty(sin_cos(empty).first));

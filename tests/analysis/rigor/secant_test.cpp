@@ -40,7 +40,7 @@ Two with_square_and_circle(const Two& x, const Two& y) {
 }
 
 /// Holds a double computation in round to nearest up to its own rounding errors.
-bool holds(const Interval& enclosure, double value) {
+bool holds_rounded(const Interval& enclosure, double value) {
   const double room = 1e-12 * (1.0 + std::fabs(value));
   return enclosure.lower() <= value + room && enclosure.upper() >= value - room;
 }
@@ -80,9 +80,9 @@ TEST_CASE("secants hold the function at the centre, over the box, and from the c
         CAPTURE(j);
         CAPTURE(f);
         REQUIRE(rigor::is_finite(secants[f].range()));
-        CHECK(holds(secants[f].range(), values[f]));
-        CHECK(holds(secants[f].center(), at_center[f]));
-        CHECK(holds(secants[f].moved_by(offset), values[f]));
+        CHECK(holds_rounded(secants[f].range(), values[f]));
+        CHECK(holds_rounded(secants[f].center(), at_center[f]));
+        CHECK(holds_rounded(secants[f].moved_by(offset), values[f]));
       }
     }
   }

@@ -2,9 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include "analysis/rigor/rounding.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::rigor {
@@ -29,7 +30,7 @@ Symmetric4 random_matrix(test::Random& random, double least) {
   for (int i = 0; i < 16; ++i) {
     m(i / 4, i % 4) = random.uniform(-1.0, 1.0);
   }
-  const Symmetric4 q = m.householderQr().householderQ();
+  const Symmetric4 q = oracle::orthogonal_factor(m);
   const Eigen::Vector4d values(least, random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), 1.0);
   return q * values.asDiagonal() * q.transpose();
 }

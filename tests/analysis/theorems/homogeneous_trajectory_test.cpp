@@ -21,7 +21,7 @@ struct Textbook {
   long double relative_decrease = 0.0L;
 };
 
-Square jacobian(const Vector& x, long double epsilon) {
+Square transition_jacobian(const Vector& x, long double epsilon) {
   const long double c = std::cos(x(2)), s = std::sin(x(2));
   Square f;
   f << c, -s, -x(0) * s - x(1) * c, s, c, x(0) * c - x(1) * s, 0.0L, 0.0L, 1.0L - epsilon;
@@ -31,7 +31,7 @@ Square jacobian(const Vector& x, long double epsilon) {
 /// Theorem 2.8's equations (2.34) as they stand, in full matrices.
 Textbook textbook_step(const Vector& x, const Vector& z, const Square& p, double q1, double q2, double r,
                        double epsilon) {
-  const Square f_bar = jacobian(x - z, static_cast<long double>(epsilon));
+  const Square f_bar = transition_jacobian(x - z, static_cast<long double>(epsilon));
   Square q = Square::Zero();
   q.diagonal() << q1, q1, q2;
   const Square predicted = f_bar * p * f_bar.transpose() + q;
@@ -43,7 +43,7 @@ Textbook textbook_step(const Vector& x, const Vector& z, const Square& p, double
   const Eigen::Matrix<long double, 3, 2> gain = predicted * h.transpose() * s.inverse();
   Textbook result;
   result.covariance = (Square::Identity() - gain * h) * predicted;
-  result.z = (Square::Identity() - gain * h) * jacobian(x, static_cast<long double>(epsilon)) * z;
+  result.z = (Square::Identity() - gain * h) * transition_jacobian(x, static_cast<long double>(epsilon)) * z;
   const long double before = z.dot(p.inverse() * z);
   const long double after = result.z.dot(result.covariance.inverse() * result.z);
   result.relative_decrease = (before - after) / z.squaredNorm();

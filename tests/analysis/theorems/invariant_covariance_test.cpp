@@ -2,12 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/rigor/rounding.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 
@@ -44,7 +44,7 @@ Eigen::Matrix3d stepped(const Eigen::Matrix3d& p, double turn, double rho, const
 }
 
 double least_eigenvalue(const Eigen::Matrix3d& m) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(0.5 * (m + m.transpose())).eigenvalues()(0);
+  return oracle::least_eigenvalue(0.5 * (m + m.transpose()));
 }
 
 IntervalDesign enclosed(const Tone& d) {

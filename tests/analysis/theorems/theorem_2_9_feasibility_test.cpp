@@ -16,11 +16,11 @@ using rigor::Interval;
 using rigor::Verdict;
 using theorems::Theorem29Variant;
 
-constexpr std::array kVariants{Theorem29Variant::printed, Theorem29Variant::errata};
+constexpr std::array kReadings{Theorem29Variant::printed, Theorem29Variant::errata};
 
 TEST_CASE("no design of Table 3.2 can meet (2.43), in either reading, and none can at all") {
   for (const test::TableRow& row : test::kTable32) {
-    for (const Theorem29Variant variant : kVariants) {
+    for (const Theorem29Variant variant : kReadings) {
       const theorems::Feasibility found =
           theorems::theorem_2_9_feasibility(variant, test::table_design(row).input());
       CHECK(found.verdict == Verdict::refuted);
@@ -43,7 +43,7 @@ TEST_CASE("random designs with random free parameters are above the lower bound"
   const std::int64_t count = test::effort(200);
   for (std::int64_t i = 0; i < count; ++i) {
     const test::TestDesign design = test::random_design(random);
-    for (const Theorem29Variant variant : kVariants) {
+    for (const Theorem29Variant variant : kReadings) {
       const theorems::Feasibility found = theorems::theorem_2_9_feasibility(variant, design.input());
       const auto oracle = test::theorem_2_9_oracle(
           variant == Theorem29Variant::errata, {design.q1, design.q2, design.r, design.state_bound,

@@ -20,7 +20,7 @@ using rigor::Interval;
 using rigor::Verdict;
 
 /// The steady state along exact estimates, by the textbook Riccati recursion in the frame of the estimate.
-Eigen::Matrix3d steady_state(const test::TestDesign& design) {
+Eigen::Matrix3d textbook_steady_state(const test::TestDesign& design) {
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   f(1, 2) = 1.0;
   f(2, 2) = 1.0 - design.epsilon;
@@ -76,7 +76,7 @@ double largest_error(const test::TestDesign& design, const Eigen::Matrix3d& stea
 
 /// NLopt looks for the directions that make W(k) largest.
 double worst_error(const test::TestDesign& design, const Attack& sizes) {
-  const Eigen::Matrix3d steady = steady_state(design);
+  const Eigen::Matrix3d steady = textbook_steady_state(design);
   const auto objective = [&](const Eigen::VectorXd& v) {
     Attack attack = sizes;
     attack.start_latitude = v[0];
@@ -134,7 +134,7 @@ void try_to_break(const test::TestDesign& design) {
   Attack frequency_only;
   frequency_only.start = quantity(derivation, "initial_frequency_error_bound");
   frequency_only.start_latitude = std::numbers::pi / 2.0;
-  CHECK(largest_error(design, steady_state(design), frequency_only) <=
+  CHECK(largest_error(design, textbook_steady_state(design), frequency_only) <=
         quantity(derivation, "radius") * kRounding);
   Attack all;
   all.start = witness(derivation, "initial_error_bound");
@@ -178,7 +178,7 @@ TEST_CASE("an assumed start and noise within the bounds is PROVED, and simulatio
   CHECK(quantity(derivation, "ultimate_frequency_error") < quantity(derivation, "frequency_error_bound"));
 
   const rigor::UpwardRounding upward;
-  const rigor::IntervalMatrix<3> given = rigor::to_interval(steady_state(design));
+  const rigor::IntervalMatrix<3> given = rigor::to_interval(textbook_steady_state(design));
   CHECK(theorems::derive_repaired_theorem({input, given}).verdict == Verdict::proved);
   const rigor::IntervalMatrix<3> huge = given * Interval(100.0);
   CHECK(theorems::derive_repaired_theorem({input, huge}).verdict == Verdict::undecided);

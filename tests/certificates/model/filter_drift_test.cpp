@@ -1,7 +1,7 @@
 // Filters by structure in Gaussian noise: what is proved against integrals over the noise, and against runs.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +18,7 @@
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "tests/support/binomial.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::certificates {
@@ -125,7 +126,7 @@ struct NoisyFilter {
   /// A state at this level, with one of the covariances between the bounds that are farthest from each other.
   [[nodiscard]] VectorXd state(double phase, double frequency, double level, test::Random& random) const {
     const auto [low, high] = bounds(phase, frequency);
-    const MatrixXd root = Eigen::LLT<MatrixXd>(0.5 * (high - low)).matrixL();
+    const MatrixXd root = oracle::cholesky_factor(0.5 * (high - low));
     const VectorXd u = direction(random);
     const MatrixXd y =
         (random.below(2) == 0 ? 1.0 : -1.0) *

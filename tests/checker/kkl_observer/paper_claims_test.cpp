@@ -3,12 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
+
+#include "tests/support/oracles.hpp"
 
 namespace {
 
@@ -20,7 +22,7 @@ double smallest_singular_value(const std::array<double, 4>& rates) {
     const double l = rates[static_cast<std::size_t>(i)];
     v.row(i) << l * l * l, l * l, l, 1.0;
   }
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(v.transpose() * v).eigenvalues()(0));
+  return std::sqrt(veritrack::oracle::least_eigenvalue(v.transpose() * v));
 }
 
 KklDesign design_of(const std::vector<Ball>& rates) {

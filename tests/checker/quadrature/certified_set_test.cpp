@@ -11,15 +11,17 @@
 #include <string>
 
 #include "checker/quadrature/contraction.hpp"
+#include "tests/checker/quadrature/set_support.hpp"
 
 using namespace veritrack::checker;
+using set_test::json_of;
+using set_test::mentions;
+using set_test::Rows;
 
 namespace {
 
-using Rows = std::array<std::array<std::string, 3>, 3>;
-
 /// Of the design of La Scala's Figure 3.5 without its leak.
-struct WrittenSet {
+struct WrittenCertifiedSet {
   Rows metric{{{"0x1.dd7f420252bdap+0", "0x0p+0", "0x0p+0"},
                {"0x0p+0", "0x1.94a22f42e4696p+2", "-0x1.02075762a01aap+2"},
                {"0x0p+0", "0x0p+0", "0x1.5c78cd65fb9f1p+4"}}};
@@ -34,15 +36,7 @@ struct WrittenSet {
       {"rate", "0x1.fb4e515d8926ep-1"},   {"noise_gain", "0x1.fb2a00562bb92p+3"}, {"slew_gain", "0x0p+0"}};
 };
 
-std::string json_of(const Rows& rows) {
-  std::string text;
-  for (const auto& row : rows) {
-    text += (text.empty() ? "[\"" : ",[\"") + row[0] + "\",\"" + row[1] + "\",\"" + row[2] + "\"]";
-  }
-  return "[" + text + "]";
-}
-
-Design the_design() {
+Design figure_3_5_design() {
   Design design;
   design.amplitude = one;
   design.q1 = design.q2 = Ball::hull(Ball(0x1.2d77318fc5048p-9), Ball(0x1.2d77318fc5049p-9));
@@ -55,7 +49,8 @@ Design the_design() {
 }
 
 /// Why the set is not verified; empty when it is.
-std::string refusal(const WrittenSet& set, const Design& design = the_design()) {
+std::string certified_set_refusal(const WrittenCertifiedSet& set,
+                                  const Design& design = figure_3_5_design()) {
   std::string text = R"({"purpose": "settling", "metric": )" + json_of(set.metric) +
                      R"(, "covariance_lower": )" + json_of(set.lower) + R"(, "covariance_upper": )" +
                      json_of(set.upper);
@@ -69,29 +64,25 @@ std::string refusal(const WrittenSet& set, const Design& design = the_design()) 
   return objections.empty() ? std::string() : objections.front();
 }
 
-std::string refusal_with(const std::string& name, const std::string& number) {
-  WrittenSet set;
+std::string certified_set_refusal_with(const std::string& name, const std::string& number) {
+  WrittenCertifiedSet set;
   set.numbers.at(name) = number;
-  return refusal(set);
-}
-
-bool mentions(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
+  return certified_set_refusal(set);
 }
 
 constexpr const char* kRange = "out of range";
-constexpr const char* kForm = "required form";
+constexpr const char* kRequiredForm = "required form";
 
 }  // namespace
 
 TEST_CASE("the set is verified as it stands") {
-  CHECK(refusal({}).empty());
+  CHECK(certified_set_refusal({}).empty());
 }
 
 TEST_CASE("a set of a design with large corrections, as tight as the program proves it" *
           doctest::test_suite("nightly")) {
   // q1 = q2 = r = 0.1, noise 0.02, slew 0.0005: secants that are not the same from both ends lose it.
-  WrittenSet set;
+  WrittenCertifiedSet set;
   set.metric = {{{"0x1.336bf14a7ef5ep+1", "0x0p+0", "0x0p+0"},
                  {"0x0p+0", "0x1.be7e341a25e8ap+1", "-0x1.7cecb947b70fep+1"},
                  {"0x0p+0", "0x0p+0", "0x1.f8983cf69999cp+1"}}};
@@ -104,55 +95,55 @@ TEST_CASE("a set of a design with large corrections, as tight as the program pro
   set.numbers = {{"radius", "0x1.9723d7d783074p-4"},    {"noise", "0x1.47ae147ae1491p-6"},
                  {"slew", "0x1.0624dd2f1aa0ep-11"},     {"rate", "0x1.95662b0d86ebbp-1"},
                  {"noise_gain", "0x1.3de818f78f85p+1"}, {"slew_gain", "0x1.7acdaf78725b9p+4"}};
-  Design design = the_design();
+  Design design = figure_3_5_design();
   design.q1 = design.q2 = design.r = Ball::hull(Ball(0x1.9999999999999p-4), Ball(0x1.999999999999ap-4));
   design.noise = Ball(0.02);
   design.slew = Ball(0.0005);
-  CHECK(refusal(set, design).empty());
+  CHECK(certified_set_refusal(set, design).empty());
   set.numbers.at("rate") = "0x1.8p-1";
-  CHECK(mentions(refusal(set, design), "step inequality"));
+  CHECK(mentions(certified_set_refusal(set, design), "step inequality"));
 }
 
 TEST_CASE("numbers of a set have their sign, though the theorem's inequality knows only their squares") {
-  CHECK(mentions(refusal_with("radius", "-0x1.efdab44e59523p-4"), kRange));
-  CHECK(mentions(refusal_with("noise", "-0x1.0624dd2f1a9fcp-10"), kRange));
-  CHECK(mentions(refusal_with("rate", "-0x1.fb4e515d8926ep-1"), kRange));
-  CHECK(mentions(refusal_with("noise_gain", "-0x1.fb2a00562bb92p+3"), kRange));
-  CHECK(mentions(refusal_with("slew_gain", "-0x1p-2"), kRange));
-  WrittenSet set;
+  CHECK(mentions(certified_set_refusal_with("radius", "-0x1.efdab44e59523p-4"), kRange));
+  CHECK(mentions(certified_set_refusal_with("noise", "-0x1.0624dd2f1a9fcp-10"), kRange));
+  CHECK(mentions(certified_set_refusal_with("rate", "-0x1.fb4e515d8926ep-1"), kRange));
+  CHECK(mentions(certified_set_refusal_with("noise_gain", "-0x1.fb2a00562bb92p+3"), kRange));
+  CHECK(mentions(certified_set_refusal_with("slew_gain", "-0x1p-2"), kRange));
+  WrittenCertifiedSet set;
   set.numbers.at("slew_gain") = "0x1p+10";
   set.numbers.at("slew") = "0x1p-30";
-  CHECK(refusal(set).empty());
+  CHECK(certified_set_refusal(set).empty());
   set.numbers.at("slew") = "-0x1p-30";
-  CHECK(mentions(refusal(set), kRange));
+  CHECK(mentions(certified_set_refusal(set), kRange));
 }
 
 TEST_CASE("a set whose errors do not shrink is refused, with noise and without") {
-  WrittenSet set;
+  WrittenCertifiedSet set;
   set.numbers.at("noise") = "0x0p+0";
   set.numbers.at("rate") = "0x1p+0";
-  CHECK(mentions(refusal(set), kRange));
+  CHECK(mentions(certified_set_refusal(set), kRange));
 }
 
 TEST_CASE("noise that pushes the errors out of the set is refused") {
-  WrittenSet set;
+  WrittenCertifiedSet set;
   set.numbers.at("noise") = "0x1p-8";
-  CHECK(mentions(refusal(set), "(c)"));
+  CHECK(mentions(certified_set_refusal(set), "(c)"));
 }
 
 TEST_CASE("gains that noise and slew exceed are refused, and are not left unread") {
-  CHECK(mentions(refusal_with("noise_gain", "0x1p+1"), "(a)"));
-  WrittenSet set;
+  CHECK(mentions(certified_set_refusal_with("noise_gain", "0x1p+1"), "(a)"));
+  WrittenCertifiedSet set;
   set.numbers.at("slew") = "0x1p-30";
   set.numbers.at("slew_gain") = "0x1p+1";
-  CHECK(mentions(refusal(set), "(a)"));
+  CHECK(mentions(certified_set_refusal(set), "(a)"));
 }
 
 TEST_CASE("a covariance bound below zero is refused") {
-  WrittenSet set;
+  WrittenCertifiedSet set;
   set.numbers.at("noise") = "0x0p+0";
   set.numbers.at("radius") = "0x1p-20";
-  CHECK(refusal(set).empty());
+  CHECK(certified_set_refusal(set).empty());
   SUBCASE("in the amplitude") {
     set.lower[0][0] = "-0x1p-10";
   }
@@ -163,46 +154,46 @@ TEST_CASE("a covariance bound below zero is refused") {
     set.lower[1] = {"0x0p+0", "-0x1p-10", "0x0p+0"};
     set.lower[2] = {"0x0p+0", "0x0p+0", "-0x1p-12"};
   }
-  CHECK(mentions(refusal(set), "positive definite"));
+  CHECK(mentions(certified_set_refusal(set), "positive definite"));
 }
 
 TEST_CASE("covariance bounds out of order and amplitudes near zero are refused for what they are") {
-  WrittenSet set;
+  WrittenCertifiedSet set;
   set.upper = set.lower;
-  CHECK(mentions(refusal(set), "in order"));
-  CHECK(mentions(refusal_with("radius", "0x1p+1"), kRange));
+  CHECK(mentions(certified_set_refusal(set), "in order"));
+  CHECK(mentions(certified_set_refusal_with("radius", "0x1p+1"), kRange));
 }
 
 TEST_CASE("an entry that the theorem's form does not have is refused, however small") {
   for (const auto& [i, j] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 0U}, {2U, 0U}, {2U, 1U}}) {
     CAPTURE(i);
     CAPTURE(j);
-    WrittenSet set;
+    WrittenCertifiedSet set;
     set.metric[i][j] = "0x1p-60";
-    CHECK(mentions(refusal(set), kForm));
+    CHECK(mentions(certified_set_refusal(set), kRequiredForm));
   }
   for (const auto& [i, j] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 0U}, {2U, 0U}, {2U, 1U}}) {
     CAPTURE(i);
     CAPTURE(j);
-    for (Rows WrittenSet::*bound : {&WrittenSet::lower, &WrittenSet::upper}) {
-      WrittenSet set;
+    for (Rows WrittenCertifiedSet::*bound : {&WrittenCertifiedSet::lower, &WrittenCertifiedSet::upper}) {
+      WrittenCertifiedSet set;
       (set.*bound)[i][j] = i == 2 && j == 1 ? "0x1.dp-8" : "0x1p-60";
-      CHECK(mentions(refusal(set), kForm));
+      CHECK(mentions(certified_set_refusal(set), kRequiredForm));
     }
   }
   for (const std::size_t i : {0U, 1U, 2U}) {
     CAPTURE(i);
-    WrittenSet set;
+    WrittenCertifiedSet set;
     set.metric[i][i] = "-" + set.metric[i][i];
     set.metric[1][2] = i > 0 ? set.metric[1][2].substr(1) : set.metric[1][2];
-    CHECK(mentions(refusal(set), kForm));
+    CHECK(mentions(certified_set_refusal(set), kRequiredForm));
   }
 }
 
 TEST_CASE("designs that the theorem is not about") {
-  Design leaking = the_design();
+  Design leaking = figure_3_5_design();
   leaking.epsilon = Ball(0x1p-60);
-  CHECK(mentions(refusal({}, leaking), "epsilon = 0"));
+  CHECK(mentions(certified_set_refusal({}, leaking), "epsilon = 0"));
 }
 
 namespace {
@@ -235,7 +226,7 @@ double ultimate_error(const Setting& outer, const Setting& inner, const Design& 
 }  // namespace
 
 TEST_CASE("a set is reached only when errors and covariances that the other set ends with lie in it") {
-  Design design = the_design();
+  Design design = figure_3_5_design();
   design.covariance = std::array<std::array<Ball, 3>, 3>{
       {{Ball(0.4), zero, zero}, {zero, Ball(0.4), zero}, {zero, zero, Ball(0.4)}}};
   const Setting outer = nested_setting();
@@ -274,7 +265,7 @@ TEST_CASE("a set is reached only when errors and covariances that the other set 
 
 TEST_CASE("settling counts from where the errors begin, and never below what noise leaves") {
   const Setting set = nested_setting();
-  const Design design = the_design();
+  const Design design = figure_3_5_design();
   const double ultimate = ultimate_level(set, design).near();
   const Ball twice(2.0 * ultimate / 20.0);
   const Ball start(100.0 * ultimate);

@@ -1,7 +1,7 @@
 // Sets for Gaussian noise as certificates write them, and the textbook filter beside them: for tests.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "checker/document/json_tree.hpp"
 #include "checker/quadrature/lock_step.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::checker::lock_test {
@@ -113,7 +114,7 @@ struct Textbook {
   }
   [[nodiscard]] double level_of(const Matrix& p) const {
     const auto largest = [](const Matrix& x, const Matrix& y) {
-      return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(x, y).eigenvalues()[2];
+      return oracle::relative_eigenvalues(x, y)[2];
     };
     return std::max(
         {0.0, largest(p - in_double(set.centre), in_double(set.above)),
@@ -171,16 +172,16 @@ struct Textbook {
   /// A random covariance of a level of at most s.
   [[nodiscard]] Matrix covariance_of_level(double s, test::Random& random) const {
     const Matrix spread = 0.5 * (high(s) - low(s));
-    const Matrix root = Eigen::LLT<Matrix>(spread + 1e-12 * Matrix::Identity()).matrixL();
+    const Matrix root = oracle::cholesky_factor(spread + 1e-12 * Matrix::Identity());
     Matrix entries;
     for (int i = 0; i < 9; ++i) {
       entries(i / 3, i % 3) = random.uniform(-1.0, 1.0);
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(entries + entries.transpose());
+    const Matrix directions = oracle::symmetric_eigenvectors(entries + entries.transpose());
     const Vector signs(random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0,
                        random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0, random.uniform(-1.0, 1.0));
-    return 0.5 * (high(s) + low(s)) + root * solver.eigenvectors() * signs.asDiagonal() *
-                                          solver.eigenvectors().transpose() * root.transpose();
+    return 0.5 * (high(s) + low(s)) +
+           root * directions * signs.asDiagonal() * directions.transpose() * root.transpose();
   }
 };
 

@@ -15,14 +15,16 @@
 
 #include "checker/quadrature/steady_contraction.hpp"
 #include "checker/quadrature/steady_level.hpp"
+#include "tests/checker/quadrature/set_support.hpp"
 
 using namespace veritrack::checker;
+using set_test::json_of;
+using set_test::mentions;
+using set_test::Rows;
 
 namespace {
 
-using Rows = std::array<std::array<std::string, 3>, 3>;
-
-struct WrittenSet {
+struct WrittenSteadySet {
   Rows metric{{{"0x1.26f60fcf42f99p+3", "-0x1.4474904eb833fp-4", "0x1.314e15e4258c8p-2"},
                {"0x0p+0", "0x1.72f8404d79878p+2", "-0x1.35c7f87585c5fp+1"},
                {"0x0p+0", "0x0p+0", "0x1.fe07e5b01d99p+2"}}};
@@ -37,15 +39,7 @@ struct WrittenSet {
   std::string slew = "0x0p+0";
 };
 
-std::string json_of(const Rows& rows) {
-  std::string text;
-  for (const auto& row : rows) {
-    text += (text.empty() ? "[\"" : ",[\"") + row[0] + "\",\"" + row[1] + "\",\"" + row[2] + "\"]";
-  }
-  return "[" + text + "]";
-}
-
-Design the_design() {
+Design design_of_the_set() {
   Design design;
   design.amplitude = one;
   design.q1 = design.q2 = Ball(0.0013);
@@ -58,13 +52,13 @@ Design the_design() {
   return design;
 }
 
-const std::vector<SteadyCell>& the_branch() {
-  static const auto branch = steady_branch(the_design(), 0.3, 1e-4);
+const std::vector<SteadyCell>& branch_of_the_set() {
+  static const auto branch = steady_branch(design_of_the_set(), 0.3, 1e-4);
   REQUIRE(branch.has_value());
   return *branch;
 }
 
-std::string evidence_of(const WrittenSet& set, const std::string& name) {
+std::string evidence_of(const WrittenSteadySet& set, const std::string& name) {
   std::string text = R"({"name": ")" + name + R"(", "matrices": {"metric": )" + json_of(set.metric) +
                      R"(, "covariance_below": )" + json_of(set.below) + R"(, "covariance_above": )" +
                      json_of(set.above) + R"(}, "numbers": {"noise": ")" + set.noise + R"(", "slew": ")" +
@@ -76,55 +70,51 @@ std::string evidence_of(const WrittenSet& set, const std::string& name) {
 }
 
 /// Why the set is not verified; empty when it is.
-std::string refusal(const WrittenSet& set) {
+std::string steady_set_refusal(const WrittenSteadySet& set) {
   std::int64_t cells = 0;
   Objections objections;
-  const SteadySet checked =
-      check_steady_set(read_json(evidence_of(set, "a")), the_design(), the_branch(), cells, objections);
+  const SteadySet checked = check_steady_set(read_json(evidence_of(set, "a")), design_of_the_set(),
+                                             branch_of_the_set(), cells, objections);
   CHECK(checked.verified == objections.empty());
   return objections.empty() ? std::string() : objections.front();
-}
-
-bool mentions(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 }  // namespace
 
 TEST_CASE("the set around the steady state is verified as it stands, and for a little slew") {
-  CHECK(refusal({}).empty());
-  WrittenSet set;
+  CHECK(steady_set_refusal({}).empty());
+  WrittenSteadySet set;
   set.slew = "0x1p-20";
-  CHECK(refusal(set).empty());
+  CHECK(steady_set_refusal(set).empty());
   set.slew = "0x1p-4";
-  CHECK(!refusal(set).empty());
+  CHECK(!steady_set_refusal(set).empty());
 }
 
 TEST_CASE("entries and signs that the form does not have are refused, however small") {
   for (const auto& [i, j] : {std::pair{1U, 0U}, {2U, 0U}, {2U, 1U}}) {
     CAPTURE(i);
     CAPTURE(j);
-    WrittenSet set;
+    WrittenSteadySet set;
     set.metric[i][j] = "0x1p-60";
-    CHECK(mentions(refusal(set), "required form"));
-    for (Rows WrittenSet::*bound : {&WrittenSet::below, &WrittenSet::above}) {
-      WrittenSet other;
+    CHECK(mentions(steady_set_refusal(set), "required form"));
+    for (Rows WrittenSteadySet::*bound : {&WrittenSteadySet::below, &WrittenSteadySet::above}) {
+      WrittenSteadySet other;
       (other.*bound)[i][j] = "0x1p-60";
-      CHECK(mentions(refusal(other), "required form"));
+      CHECK(mentions(steady_set_refusal(other), "required form"));
     }
   }
   for (const std::size_t i : {0U, 1U, 2U}) {
     CAPTURE(i);
-    WrittenSet set;
+    WrittenSteadySet set;
     for (std::string& entry : set.metric[i]) {  // the rows of T may have either sign, as far as |T e| goes
       entry = entry.front() == '-' ? entry.substr(1) : "-" + entry;
     }
-    CHECK(mentions(refusal(set), "required form"));
+    CHECK(mentions(steady_set_refusal(set), "required form"));
   }
 }
 
 TEST_CASE("levels begin at 1 and fall, noise and slew are not negative") {
-  WrittenSet set;
+  WrittenSteadySet set;
   SUBCASE("a first level below 1") {
     set.levels = {"0x1.ffp-1", "0x1.d244f73243c0ap-1"};
   }
@@ -143,11 +133,11 @@ TEST_CASE("levels begin at 1 and fall, noise and slew are not negative") {
   SUBCASE("slew") {
     set.slew = "-0x1p-4";
   }
-  CHECK(mentions(refusal(set), "out of range"));
+  CHECK(mentions(steady_set_refusal(set), "out of range"));
 }
 
 TEST_CASE("bounds on the covariance that are none") {
-  WrittenSet set;
+  WrittenSteadySet set;
   std::string why;
   SUBCASE("below") {
     set.below[0][0] = "-0x1p-30";
@@ -171,7 +161,7 @@ TEST_CASE("bounds on the covariance that are none") {
     set.below[2][2] = "0x1.2p-11";
     why = "next level";
   }
-  CHECK(mentions(refusal(set), why));
+  CHECK(mentions(steady_set_refusal(set), why));
 }
 
 namespace {
@@ -192,7 +182,7 @@ Rows times(double factor, Rows rows) {
 // The derivative of the steady covariance has eigenvalues of either sign, of which correlations in the bound
 // make the one or the other count more.
 TEST_CASE("slew moves the covariances, too, up and down") {
-  WrittenSet set;
+  WrittenSteadySet set;
   SUBCASE("one way") {
     set.below = times(0.87467, set.below);
   }
@@ -201,30 +191,30 @@ TEST_CASE("slew moves the covariances, too, up and down") {
     set.below[0][2] = set.below[2][0] = "-" + set.below[0][2];
     set.below = times(0.87808, set.below);
   }
-  CHECK(refusal(set).empty());
+  CHECK(steady_set_refusal(set).empty());
   set.slew = "0x1.0624dd2f1a9fcp-8";
-  CHECK(mentions(refusal(set), "next level"));
+  CHECK(mentions(steady_set_refusal(set), "next level"));
 }
 
 TEST_CASE("directions of the metric that are too much alike are not covered") {
-  WrittenSet set;
+  WrittenSteadySet set;
   set.metric = {{{"0x1p+0", "0x0p+0", "-0x1.9p+6"},
                  {"0x0p+0", "0x1p+0", "-0x1.8cp+6"},
                  {"0x0p+0", "0x0p+0", "0x1p+0"}}};
-  CHECK(!refusal(set).empty());
+  CHECK(!steady_set_refusal(set).empty());
 }
 
 TEST_CASE("what is promised in the long run counts the bias, and the last level") {
-  const WrittenSet set;
+  const WrittenSteadySet set;
   const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
                                     evidence_of(set, "start-error") + "]}");
   std::int64_t cells = 0;
   Objections objections;
-  Design design = the_design();
+  Design design = design_of_the_set();
   design.amplitude_error = design.phase_error = design.frequency_error = Ball(0x1p-20);
   const Promises promises = check_steady_contraction(derivation, design, cells, objections);
   REQUIRE(promises.ultimate.has_value());
-  const double bias = std::fabs(the_branch().back().middle[2].near());
+  const double bias = std::fabs(branch_of_the_set().back().middle[2].near());
   const double reach = 1.0 / from_hexadecimal(set.metric[2][2]).near();
   const double expected = bias + from_hexadecimal(set.levels.back()).near() * reach;
   CHECK(bias > 0.004 * reach);
@@ -233,27 +223,27 @@ TEST_CASE("what is promised in the long run counts the bias, and the last level"
 }
 
 TEST_CASE("the rate is that of the slowest step") {
-  WrittenSet set;
+  WrittenSteadySet set;
   set.levels = {"0x1p+0", "0x1.fp-1", "0x1.cdp-1"};
-  CHECK(refusal(set).empty());
+  CHECK(steady_set_refusal(set).empty());
   const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
                                     evidence_of(set, "start-error") + "]}");
   std::int64_t cells = 0;
   Objections objections;
-  const Promises promises = check_steady_contraction(derivation, the_design(), cells, objections);
+  const Promises promises = check_steady_contraction(derivation, design_of_the_set(), cells, objections);
   REQUIRE(promises.rate.has_value());
   CHECK(promises.rate->near() >= 0x1.fp-1);
 }
 
 TEST_CASE("a set is one for its own noise and slew, and for no more") {
   const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
-                                    evidence_of(WrittenSet(), "start-error") + "]}");
+                                    evidence_of(WrittenSteadySet(), "start-error") + "]}");
   const auto has_set = [&](const Design& design) {
     std::int64_t cells = 0;
     Objections objections;
     return check_steady_contraction(derivation, design, cells, objections).reach.has_value();
   };
-  Design design = the_design();
+  Design design = design_of_the_set();
   CHECK(has_set(design));
   SUBCASE("noise") {
     design.noise = Ball(0.00101);
@@ -265,16 +255,16 @@ TEST_CASE("a set is one for its own noise and slew, and for no more") {
 }
 
 TEST_CASE("settling is claimed at no less than the ultimate error, and not before the last level") {
-  Design design = the_design();
+  Design design = design_of_the_set();
   design.amplitude_error = design.phase_error = Ball(0x1p-20);
   design.frequency_error = Ball(0.118);  // above the last level
-  const Symmetric<Ball> steady = covariance_part(the_branch().back().middle);
+  const Symmetric<Ball> steady = covariance_part(branch_of_the_set().back().middle);
   design.covariance = matrix_of(steady);
   const auto settles = [&](const std::string& error, const std::string& samples) {
     const Tree derivation =
         read_json(R"({"conditions": [], "quantities": {"settling_samples": {"hi": ")" + samples +
                   R"("}, "settled_frequency_error": {"hi": ")" + error + R"("}}, "evidence": [)" +
-                  evidence_of(WrittenSet(), "start-error") + "]}");
+                  evidence_of(WrittenSteadySet(), "start-error") + "]}");
     std::int64_t cells = 0;
     Objections objections;
     return check_steady_contraction(derivation, design, cells, objections).settled.has_value();
@@ -289,7 +279,7 @@ namespace {
 /// Does a step from level 1 lead to so high a level that only the meaning of the step is in question?
 bool leads_anywhere(const Ball& noise, const Ball& motion = zero, const Ball& covariance_motion = zero) {
   SteadySetting setting;
-  const Design design = the_design();
+  const Design design = design_of_the_set();
   setting.q1 = design.q1;
   setting.q2 = design.q2;
   setting.r = design.r;
@@ -297,7 +287,7 @@ bool leads_anywhere(const Ball& noise, const Ball& motion = zero, const Ball& co
   setting.metric = {Ball(16.0), zero, zero, Ball(16.0), zero, Ball(16.0)};
   setting.below = setting.above = {Ball(1e-4), zero, zero, Ball(1e-4), zero, Ball(1e-4)};
   setting.set_directions();
-  SteadyCover cover(setting, the_branch().back());
+  SteadyCover cover(setting, branch_of_the_set().back());
   const Ball next(1e6);
   return cover.maps_into_next({one, next - motion, next - covariance_motion, noise});
 }

@@ -13,13 +13,13 @@ namespace {
 
 using namespace veritrack;
 using checker::Ball;
-using Covariance = trackers::PolarCovariance<double>;
+using TrackerCovariance = trackers::PolarCovariance<double>;
 using Errors = std::array<double, 3>;
 
-Covariance in_double(const checker::Symmetric<Ball>& p) {
+TrackerCovariance in_double(const checker::Symmetric<Ball>& p) {
   return {p[0].near(), p[1].near(), p[2].near(), p[3].near(), p[4].near(), p[5].near()};
 }
-std::array<double, 6> entries(const Covariance& p) {
+std::array<double, 6> entries(const TrackerCovariance& p) {
   return {p.p11, p.p12, p.p13, p.p22, p.p23, p.p33};
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a step about the steady state is the tracker's") {
     checker::SteadyPlace<Ball> place;
     std::copy_n(at.begin(), 3, place.steady.error.begin());
     std::copy(at.begin() + 3, at.end(), place.steady.covariance.begin());
-    const Covariance steady = in_double(place.steady.covariance);
+    const TrackerCovariance steady = in_double(place.steady.covariance);
     for (int point = 0; point < 20; ++point) {
       CAPTURE(point);
       const double level = random.uniform(0.1, 1.0);

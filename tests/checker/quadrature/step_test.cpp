@@ -14,7 +14,7 @@ using namespace veritrack;
 using checker::Ball;
 
 /// A covariance without correlation between the amplitude and the rest.
-checker::Covariance<Ball> random_covariance(test::Random& random) {
+checker::Covariance<Ball> random_block_covariance(test::Random& random) {
   const double a = random.uniform(0.01, 0.2);
   const double b = random.uniform(0.01, 0.2);
   return {Ball(random.uniform(0.01, 0.2)), Ball(a), Ball(random.uniform(-0.9, 0.9) * std::sqrt(a * b)),
@@ -25,7 +25,7 @@ trackers::PolarCovariance<double> in_double(const checker::Covariance<Ball>& p) 
   return {p.p11.near(), 0.0, 0.0, p.p22.near(), p.p23.near(), p.p33.near()};
 }
 
-void check_close(const Ball& found, double expected) {
+void check_ball_close(const Ball& found, double expected) {
   CHECK(std::fabs(found.near() - expected) <= 1e-11 * (1.0 + std::fabs(expected)));
 }
 
@@ -41,7 +41,7 @@ TEST_CASE("errors, noise and covariance move as in the tracker") {
     setting.q1 = Ball(design.q1);
     setting.q2 = Ball(design.q2);
     setting.r = Ball(design.r);
-    setting.lower = setting.upper = random_covariance(random);
+    setting.lower = setting.upper = random_block_covariance(random);
     const trackers::PolarFrameState<double> state{
         {random.uniform(-0.4, 0.4), random.uniform(-0.5, 0.5), random.uniform(-0.3, 0.3)},
         in_double(setting.lower)};
@@ -60,24 +60,24 @@ TEST_CASE("errors, noise and covariance move as in the tracker") {
     const Ball moved_across = c.k2 * Ball(input.noise_across);
     const checker::Secant<Ball> moved =
         checker::secant(c.mean, {c.mean[0] + moved_along, c.mean[1] + moved_across});
-    check_close(left.length[0] * along + left.length[1] * across + moved.length[0] * moved_along +
-                    moved.length[1] * moved_across,
-                next.error.amplitude);
-    check_close(left.angle[0] * along + left.angle[1] * across + moved.angle[0] * moved_along +
-                    moved.angle[1] * moved_across,
-                next.error.phase);
-    check_close(Ball(state.error.frequency) + c.k3 * (innovation[1] + Ball(input.noise_across)),
-                next.error.frequency);
+    check_ball_close(left.length[0] * along + left.length[1] * across + moved.length[0] * moved_along +
+                         moved.length[1] * moved_across,
+                     next.error.amplitude);
+    check_ball_close(left.angle[0] * along + left.angle[1] * across + moved.angle[0] * moved_along +
+                         moved.angle[1] * moved_across,
+                     next.error.phase);
+    check_ball_close(Ball(state.error.frequency) + c.k3 * (innovation[1] + Ball(input.noise_across)),
+                     next.error.frequency);
 
     const checker::Update<Ball> update = checker::update(setting, setting.lower, a + Ball(1.0));
     const auto predicted =
         trackers::predicted_covariance(state.covariance, 1.0 + state.error.amplitude, design);
     const auto filtered =
         trackers::filtered_covariance(predicted, trackers::gain(predicted, design.r), design.r);
-    check_close(update.filtered.p11, filtered.p11);
-    check_close(update.filtered.p22, filtered.p22);
-    check_close(update.filtered.p23, filtered.p23);
-    check_close(update.filtered.p33, filtered.p33);
+    check_ball_close(update.filtered.p11, filtered.p11);
+    check_ball_close(update.filtered.p22, filtered.p22);
+    check_ball_close(update.filtered.p23, filtered.p23);
+    check_ball_close(update.filtered.p33, filtered.p33);
   }
 }
 

@@ -1,12 +1,12 @@
 // A window that is true of the tracker that runs, with room.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "checker/single_channel/covariance_window.hpp"
+#include "tests/support/oracles.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 
 namespace veritrack::test::window {
@@ -34,13 +34,11 @@ inline Extremes along_a_tone() {
     }
     const Eigen::Matrix3d p = tracker.filtered().covariance.matrix();
     const Eigen::Matrix3d predicted = tracker.predicted().covariance.matrix();
-    const auto eigenvalues = [](const Eigen::Matrix3d& m) {
-      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m.topLeftCorner<2, 2>()).eigenvalues().eval();
-    };
     found.most_p33 = std::max(found.most_p33, p(2, 2));
     found.least_p33 = std::min(found.least_p33, p(2, 2));
-    found.most_signal = std::max(found.most_signal, eigenvalues(p)(1));
-    found.least_predicted = std::min(found.least_predicted, eigenvalues(predicted)(0));
+    found.most_signal = std::max(found.most_signal, oracle::largest_eigenvalue(p.topLeftCorner<2, 2>()));
+    found.least_predicted =
+        std::min(found.least_predicted, oracle::least_eigenvalue(predicted.topLeftCorner<2, 2>()));
     found.most_inverse = std::max(found.most_inverse, p.inverse()(2, 2));
   }
   return found;

@@ -7,6 +7,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 
@@ -65,7 +66,7 @@ TEST_CASE("the steady loop of the tracker is enclosed, and its gains are those o
     Eigen::Matrix2d kept = Eigen::Matrix2d::Identity();
     kept.col(0) -= gain;
     const Eigen::Matrix2d closed = kept * f;
-    const Eigen::Vector2cd factors = closed.eigenvalues();
+    const Eigen::Vector2cd factors = oracle::eigenvalues(closed);
     CHECK(rigor::midpoint(loop->squared_factor()) ==
           doctest::Approx(std::abs(factors(0) * factors(1))).epsilon(1e-9));
     CHECK((!loop->oscillates() || std::fabs(factors(0).imag()) > 0.0));

@@ -2,13 +2,14 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace {
@@ -35,7 +36,7 @@ double largest_zero(const std::vector<double>& p) {
     companion(0, i) = -p[static_cast<std::size_t>(i) + 1] / p[0];
   }
   companion.diagonal(-1).setOnes();
-  return companion.eigenvalues().cwiseAbs().maxCoeff();
+  return oracle::spectral_radius(companion);
 }
 
 std::complex<double> value(const std::vector<double>& p, double angle) {

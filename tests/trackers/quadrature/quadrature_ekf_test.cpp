@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trackers/random_tracker.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
@@ -32,8 +33,8 @@ TextbookEkf<Real> textbook_of(const ToneModel<double>& design, const QuadratureE
 
 template <typename Real>
 double condition_of(const Eigen::Matrix<Real, 2, 2>& s) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 2, 2>> solver(s.template cast<double>());
-  return solver.eigenvalues()(1) / solver.eigenvalues()(0);
+  const Eigen::Vector2d values = oracle::symmetric_eigenvalues(s.template cast<double>());
+  return values(1) / values(0);
 }
 
 /// Largest entry of |P - textbook P|, each relative to what its units are: sqrt(P_ii P_jj).

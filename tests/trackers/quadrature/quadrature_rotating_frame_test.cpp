@@ -21,23 +21,23 @@ using test::random_design;
 using test::random_power;
 using test::turn;
 
-using State = RotatingFrameState<double>;
-using Input = RotatingFrameInput<double>;
+using RotatingState = RotatingFrameState<double>;
+using RotatingInput = RotatingFrameInput<double>;
 
-State random_state(Random& random) {
+RotatingState random_rotating_state(Random& random) {
   const Eigen::Matrix3d p = random_covariance(random);
-  State state;
+  RotatingState state;
   state << random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-1.0, 1.0), p(0, 0), p(0, 1),
       p(0, 2), p(1, 1), p(1, 2), p(2, 2);
   return state;
 }
 
-Input random_input(Random& random) {
+RotatingInput random_rotating_input(Random& random) {
   return {random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.1, 0.1),
           random.uniform(-3.0, 3.0)};
 }
 
-Eigen::Matrix3d covariance_of(const State& state) {
+Eigen::Matrix3d covariance_of(const RotatingState& state) {
   Eigen::Matrix3d p;
   p << state(kP11), state(kP12), state(kP13), state(kP12), state(kP22), state(kP23), state(kP13), state(kP23),
       state(kP33);
@@ -47,8 +47,9 @@ Eigen::Matrix3d covariance_of(const State& state) {
 /// The closed loop as the sources have it: the textbook filter, driven by A e^{i phi(k+1)} + v(k+1), seen
 /// from the frame of the true phase. `amplitude` scales signal, state and noise; the state goes in and comes
 /// out relative to amplitude 1.
-State textbook_closed_loop(const State& state, const Input& input, const ToneModel<double>& design,
-                           long double phase, long double amplitude) {
+RotatingState textbook_closed_loop(const RotatingState& state, const RotatingInput& input,
+                                   const ToneModel<double>& design, long double phase,
+                                   long double amplitude) {
   using Vector3 = Eigen::Matrix<long double, 3, 1>;
   using Matrix3 = Eigen::Matrix<long double, 3, 3>;
   const Vector3 units(amplitude, amplitude, 1.0L);
@@ -68,14 +69,14 @@ State textbook_closed_loop(const State& state, const Input& input, const ToneMod
   const Matrix3 out = (turn(next_phase) * units.asDiagonal()).inverse();
   const Vector3 x = out * textbook.x;
   const Eigen::Matrix3d p = (out * textbook.P * out.transpose()).cast<double>();
-  State next;
+  RotatingState next;
   next << static_cast<double>(x(0) - 1.0L), static_cast<double>(x(1)),
       static_cast<double>(x(2) - frequency - static_cast<long double>(input.slew)), p(0, 0), p(0, 1), p(0, 2),
       p(1, 1), p(1, 2), p(2, 2);
   return next;
 }
 
-double gap(const State& a, const State& b) {
+double rotating_gap(const RotatingState& a, const RotatingState& b) {
   return (a - b).cwiseAbs().maxCoeff();
 }
 
@@ -85,26 +86,27 @@ TEST_CASE("G is the closed loop of the textbook filter and the true signal") {
   double worst = 0.0;
   for (std::int64_t k = 0; k < count; ++k) {
     const auto design = random_design(random);
-    const State state = random_state(random);
-    const Input input = random_input(random);
+    const RotatingState state = random_rotating_state(random);
+    const RotatingInput input = random_rotating_input(random);
     const long double phase = random.uniform(-3.2, 3.2);
-    const State expected = textbook_closed_loop(state, input, design, phase, 1.0L);
-    worst =
-        std::max(worst, gap(rotating_frame_map(state, input, design), expected) / (1.0 + expected.norm()));
+    const RotatingState expected = textbook_closed_loop(state, input, design, phase, 1.0L);
+    worst = std::max(
+        worst, rotating_gap(rotating_frame_map(state, input, design), expected) / (1.0 + expected.norm()));
   }
   CHECK(worst <= 1e-11);
 }
 
 struct RotatingFrame {
   using State = RotatingFrameState<double>;
-  static State from(const QuadratureEstimate<double>& estimate, double phase, double frequency) {
+  static RotatingState from(const QuadratureEstimate<double>& estimate, double phase, double frequency) {
     return to_rotating_frame(estimate, 1.0, phase, frequency);
   }
-  static double noise_angle(const State& /*state*/, double next_phase) { return next_phase; }
-  static State next(const State& state, const Input& input, const ToneModel<double>& design) {
+  static double noise_angle(const RotatingState& /*state*/, double next_phase) { return next_phase; }
+  static RotatingState next(const RotatingState& state, const RotatingInput& input,
+                            const ToneModel<double>& design) {
     return rotating_frame_map(state, input, design);
   }
-  static double gap(const State& a, const State& b) { return trackers::gap(a, b); }
+  static double gap(const RotatingState& a, const RotatingState& b) { return rotating_gap(a, b); }
 };
 
 TEST_CASE("G is the closed loop of the shipped tracker and the true signal, over a run") {
@@ -115,16 +117,16 @@ TEST_CASE("a filter at amplitude A is the filter (q1/A^2, r/A^2, v/A) at amplitu
   Random random(13);
   for (int k = 0; k < 5000; ++k) {
     const auto design = random_design(random);
-    const State state = random_state(random);
-    const Input input = random_input(random);
+    const RotatingState state = random_rotating_state(random);
+    const RotatingInput input = random_rotating_input(random);
     const double amplitude = random_power(random, -2.0, 2.0);
     ToneModel<double> scaled = design;  // what the user runs at this amplitude
     scaled.q1 *= amplitude * amplitude;
     scaled.r *= amplitude * amplitude;
-    const State expected =
+    const RotatingState expected =
         textbook_closed_loop(state, input, scaled, 0.4L, static_cast<long double>(amplitude));
-    const State next = rotating_frame_map(state, input, at_unit_amplitude(scaled, amplitude));
-    CHECK(gap(next, expected) <= 1e-11 * (1.0 + expected.norm()));
+    const RotatingState next = rotating_frame_map(state, input, at_unit_amplitude(scaled, amplitude));
+    CHECK(rotating_gap(next, expected) <= 1e-11 * (1.0 + expected.norm()));
   }
 }
 
@@ -134,7 +136,7 @@ TEST_CASE("to_rotating_frame of an estimate at amplitude A") {
     const auto estimate = test::random_estimate(random);
     const double amplitude = random_power(random, -1.0, 1.0);
     const double phase = random.uniform(-3.2, 3.2);
-    const State state = to_rotating_frame(estimate, amplitude, phase, 0.5);
+    const RotatingState state = to_rotating_frame(estimate, amplitude, phase, 0.5);
     Eigen::Vector3d units(1.0 / amplitude, 1.0 / amplitude, 1.0);
     const Eigen::Matrix3d out = units.asDiagonal() * turn(-static_cast<long double>(phase)).cast<double>();
     const Eigen::Vector3d x = out * estimate.state() - Eigen::Vector3d(1.0, 0.0, 0.5);
@@ -148,14 +150,15 @@ TEST_CASE("without leak G does not depend on the frequency; with leak it does") 
   Random random(15);
   for (int k = 0; k < 1000; ++k) {
     auto design = random_design(random);
-    const State state = random_state(random);
-    Input input = random_input(random);
-    Input other = input;
+    const RotatingState state = random_rotating_state(random);
+    RotatingInput input = random_rotating_input(random);
+    RotatingInput other = input;
     other.frequency = random.uniform(-3.0, 3.0);
     design.epsilon = 0.0;
     CHECK(rotating_frame_map(state, input, design) == rotating_frame_map(state, other, design));
     design.epsilon = 0.01;
-    const State moved = rotating_frame_map(state, input, design) - rotating_frame_map(state, other, design);
+    const RotatingState moved =
+        rotating_frame_map(state, input, design) - rotating_frame_map(state, other, design);
     CHECK(moved(kFrequencyError) ==
           doctest::Approx(0.01 * (other.frequency - input.frequency)).epsilon(1e-9));
   }
@@ -166,7 +169,7 @@ TEST_CASE("without leak and noise a frequency error of 2 pi k stays as it is") {
   for (int turns = -2; turns <= 2; ++turns) {
     auto design = random_design(random);
     design.epsilon = 0.0;
-    State state = random_state(random);
+    RotatingState state = random_rotating_state(random);
     state(kDeltaInPhase) = 0.0;
     state(kDeltaQuadrature) = 0.0;
     state(kFrequencyError) = 2.0 * std::numbers::pi * turns;
@@ -180,7 +183,7 @@ TEST_CASE("without leak and noise a frequency error of 2 pi k stays as it is") {
 
 TEST_CASE("without leak the fixed point splits into a scalar and a 2x2 Riccati equation") {
   const ToneModel<double> design{0.0023, 0.0023, 0.05, 0.0};
-  State state = State::Zero();
+  RotatingState state = RotatingState::Zero();
   state(kP11) = state(kP22) = state(kP33) = 1.0;
   for (int k = 0; k < 2000; ++k) {
     state = rotating_frame_map(state, {0.0, 0.0, 0.0, 1.0}, design);

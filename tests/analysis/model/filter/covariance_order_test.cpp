@@ -2,11 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::model {
@@ -26,12 +27,6 @@ BallMatrix constant(const Eigen::MatrixXd& matrix) {
     }
   }
   return result;
-}
-
-double least_eigenvalue(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
 }
 
 TEST_CASE("what is shown of F P F' holds for random xi") {
@@ -65,15 +60,15 @@ TEST_CASE("what is shown of F P F' holds for random xi") {
           f * p * f.transpose() + q - share * (size + 0.1) * Eigen::MatrixXd::Identity(2, 2);
       const bool is_below = stays_below(parts, constant(p), constant(q), constant(high));
       const bool is_above =
-          least_eigenvalue(low) > 0.0 && stays_above(parts, constant(p), constant(q), constant(low));
+          oracle::least_eigenvalue(low) > 0.0 && stays_above(parts, constant(p), constant(q), constant(low));
       shown += (is_below ? 1 : 0) + (is_above ? 1 : 0);
       for (int k = 0; k < 50; ++k) {
         Eigen::Vector2d x(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
         x /= std::max(1.0, x.norm());
         const Eigen::MatrixXd here = f + first * x[0] + second * x[1] + of_product * x[0] * x[1];
         const Eigen::MatrixXd next = here * p * here.transpose() + q;
-        CHECK((!is_below || least_eigenvalue(high - next) > 0.0));
-        CHECK((!is_above || least_eigenvalue(next - low) > 0.0));
+        CHECK((!is_below || oracle::least_eigenvalue(high - next) > 0.0));
+        CHECK((!is_above || oracle::least_eigenvalue(next - low) > 0.0));
       }
     }
     CHECK_FALSE(stays_below(parts, constant(p), constant(q), constant(f * p * f.transpose() + q)));

@@ -1,7 +1,7 @@
 // Small extended Kalman filters by their parts, with their formulas written out beside them.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
@@ -10,6 +10,7 @@
 #include "analysis/model/steady_state/curve_fit.hpp"
 #include "analysis/model/steady_state/steady_state.hpp"
 #include "tests/analysis/model/tube_examples.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/model/filter_parts.hpp"
 
@@ -130,7 +131,7 @@ struct BentFilter {
     return Eigen::Matrix2d{{r, r12}, {r12, r}}.topLeftCorner(channels, channels);
   }
   /// R^-1 H.
-  [[nodiscard]] Eigen::MatrixXd weighted() const { return noise().fullPivLu().solve(measured()); }
+  [[nodiscard]] Eigen::MatrixXd weighted() const { return oracle::solution(noise(), measured()); }
   /// Of the inverses: P+^-1 = P^-1 + H' R^-1 H.
   [[nodiscard]] Eigen::Matrix2d updated(const Eigen::Matrix2d& predicted) const {
     const Eigen::Matrix2d information = predicted.inverse() + measured().transpose() * weighted();

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "tests/analysis/model/filter/filter_examples.hpp"
+#include "tests/support/oracles.hpp"
 
 namespace veritrack::model::detail {
 namespace {
@@ -55,7 +56,7 @@ double length_of(const FilterStepOnOrbit& step, const test::BentFilter& bent, co
   if (step.move.size() > 0) {
     error += moved * step.move;
   }
-  return test::lower_root(step.after).fullPivLu().solve(error).norm();
+  return oracle::solution(test::lower_root(step.after), error).norm();
 }
 
 /// The longest of many.

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/analysis/model/filter/filter_examples.hpp"
+#include "tests/support/oracles.hpp"
 
 namespace veritrack::model::detail {
 namespace {
@@ -86,8 +87,8 @@ struct SampledStep {
       const Eigen::Matrix2d below = next.low;
       CHECK(test::least_of_both(above - predicted) > 0.0);
       CHECK(test::least_of_both(predicted - below) > 0.0);
-      of_high = std::max(of_high, (above.inverse() * predicted).eigenvalues().real().maxCoeff());
-      of_low = std::max(of_low, (predicted.inverse() * below).eigenvalues().real().maxCoeff());
+      of_high = std::max(of_high, oracle::eigenvalues(above.inverse() * predicted).real().maxCoeff());
+      of_low = std::max(of_low, oracle::eigenvalues(predicted.inverse() * below).real().maxCoeff());
     }
   }
 };

@@ -2,10 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::quadrature {
@@ -61,10 +62,8 @@ TEST_CASE("membership is proved inside and never outside") {
     p(0, 2) += shift;
     p(2, 0) += shift;
     p(0, 0) += random.uniform(-1.0, 1.0);
-    const auto smallest = [](const Eigen::Matrix3d& m) {
-      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvalues()(0);
-    };
-    const double margin = std::min(smallest(p - set.covariance_lower), smallest(set.covariance_upper - p));
+    const double margin = std::min(oracle::least_eigenvalue(p - set.covariance_lower),
+                                   oracle::least_eigenvalue(set.covariance_upper - p));
     const rigor::UpwardRounding upward;
     const bool inside = certainly_contains(set, rigor::to_interval(e), rigor::to_interval(p));
     if (level > 1.0 + 1e-9 || margin < -1e-9) {

@@ -2,13 +2,14 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 
 #include "analysis/quadrature/contraction/step_inequality.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 
@@ -198,7 +199,7 @@ TEST_CASE("the proposed rate bounds every step on the axis that the form allows"
     Eigen::Matrix3d gram;
     gram << form.gram.g11, form.gram.g12, form.gram.g13, form.gram.g12, form.gram.g22, form.gram.g23,
         form.gram.g13, form.gram.g23, form.gram.g33;
-    const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(gram).matrixL();
+    const Eigen::Matrix3d root = oracle::cholesky_factor(gram);
     const Eigen::Vector3d t(0.0, setting.metric.coupling, setting.metric.frequency);
     for (int i = 0; i < 200; ++i) {
       const double nu = random.uniform(-2.0, 2.0);

@@ -13,26 +13,27 @@ namespace {
 
 using rigor::Interval;
 
-const trackers::ToneModel<double> kDesign{0.0013, 0.002, 0.01, 0.0};
-const BlockCovariance<double> kLow{0.003, 0.004, 0.001, 0.002};
-const BlockCovariance<double> kHigh{0.0031, 0.0041, 0.00105, 0.0021};
+const trackers::ToneModel<double> kSettingDesign{0.0013, 0.002, 0.01, 0.0};
+const BlockCovariance<double> kSettingLow{0.003, 0.004, 0.001, 0.002};
+const BlockCovariance<double> kSettingHigh{0.0031, 0.0041, 0.00105, 0.0021};
 
 BlockCovariance<Interval> enclosed(const BlockCovariance<double>& p) {
   return {Interval(p.p11), Interval(p.p22), Interval(p.p23), Interval(p.p33)};
 }
 
-StepSetting<double> the_setting(double noise, const BlockCovariance<double>& high = kHigh) {
-  return {kDesign, {2.0, 3.0, -1.0, 4.0}, kLow, high, 0.3, 0.6, noise};
+StepSetting<double> the_setting(double noise, const BlockCovariance<double>& high = kSettingHigh) {
+  return {kSettingDesign, {2.0, 3.0, -1.0, 4.0}, kSettingLow, high, 0.3, 0.6, noise};
 }
 StepSetting<Interval> enclosed(const StepSetting<double>& s) {
-  return {{Interval(kDesign.q1), Interval(kDesign.q2), Interval(kDesign.r), Interval(0.0)},
-          {Interval(s.metric.amplitude), Interval(s.metric.phase), Interval(s.metric.coupling),
-           Interval(s.metric.frequency)},
-          enclosed(kLow),
-          enclosed(s.covariance_upper),
-          Interval(s.largest_amplitude),
-          Interval(s.largest_chi),
-          Interval(s.noise)};
+  return {
+      {Interval(kSettingDesign.q1), Interval(kSettingDesign.q2), Interval(kSettingDesign.r), Interval(0.0)},
+      {Interval(s.metric.amplitude), Interval(s.metric.phase), Interval(s.metric.coupling),
+       Interval(s.metric.frequency)},
+      enclosed(kSettingLow),
+      enclosed(s.covariance_upper),
+      Interval(s.largest_amplitude),
+      Interval(s.largest_chi),
+      Interval(s.noise)};
 }
 
 /// A cell of this size around s = 0.5, beta = 1, and the constants of an inequality, over both scalars.
@@ -42,7 +43,7 @@ struct Cell {
   StepConstants<double> constants;
 
   Cell(double rate_squared, double noise_gain_squared, double size,
-       const BlockCovariance<double>& high = kHigh)
+       const BlockCovariance<double>& high = kSettingHigh)
       : setting(the_setting(noise_gain_squared > 0.0 ? 0.01 : 0.0, high)),
         constants{rate_squared, noise_gain_squared, 1.0, noise_gain_squared > 0.0, false} {
     const std::array<double, 4> middle{0.5, 1.0, 0.0, 0.0};

@@ -2,9 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 
@@ -13,10 +14,10 @@ namespace {
 
 using rigor::Interval;
 
-BlockCovariance<Interval> exact(const BlockCovariance<double>& p) {
+BlockCovariance<Interval> interval_block(const BlockCovariance<double>& p) {
   return {Interval(p.p11), Interval(p.p22), Interval(p.p23), Interval(p.p33)};
 }
-Eigen::Matrix3d matrix(const BlockCovariance<double>& p) {
+Eigen::Matrix3d matrix_of(const BlockCovariance<double>& p) {
   Eigen::Matrix3d m;
   m << p.p11, 0.0, 0.0, 0.0, p.p22, p.p23, 0.0, p.p23, p.p33;
   return m;
@@ -34,14 +35,14 @@ TEST_CASE("no step turns the estimate further than its amplitude's bound says") 
     const rigor::UpwardRounding upward;
     turns = bound_turns({{Interval(design.q1), Interval(design.q2), Interval(design.r), Interval(0.0)},
                          {Interval(1.0), Interval(1.0), Interval(0.0), Interval(1.0)},
-                         exact(low),
-                         exact(high),
+                         interval_block(low),
+                         interval_block(high),
                          Interval(amplitude),
                          Interval(chi_end),
                          Interval(noise)});
   }
   REQUIRE(!turns.empty());
-  const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(matrix(high) - matrix(low)).matrixL();
+  const Eigen::Matrix3d root = oracle::cholesky_factor(matrix_of(high) - matrix_of(low));
   test::Random random(78);
   double closest = 0.0;
   for (std::int64_t k = 0; k < test::effort(20000); ++k) {
@@ -51,7 +52,7 @@ TEST_CASE("no step turns the estimate further than its amplitude's bound says") 
     const double chi = s * chi_end * std::sin(angle);
     const Eigen::Vector3d u =
         Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
-    const Eigen::Matrix3d p = matrix(low) + root * (u * u.transpose()) * root.transpose();
+    const Eigen::Matrix3d p = matrix_of(low) + root * (u * u.transpose()) * root.transpose();
     const double nu = random.uniform(-0.3, 0.3);
     const double direction = random.uniform(-3.15, 3.15);
     const trackers::PolarFrameState<double> state{{a, chi - nu, nu},
@@ -77,7 +78,7 @@ TEST_CASE("no step turns the estimate further than its amplitude's bound says") 
 
 TEST_CASE("turns that may be right angles have no bound") {
   const rigor::UpwardRounding upward;
-  const BlockCovariance<Interval> p = exact({0.003, 0.004, 0.001, 0.002});
+  const BlockCovariance<Interval> p = interval_block({0.003, 0.004, 0.001, 0.002});
   StepSetting<Interval> setting{{Interval(0.001), Interval(0.001), Interval(0.01), Interval(0.0)},
                                 {Interval(1.0), Interval(1.0), Interval(0.0), Interval(1.0)},
                                 p,

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analysis/quadrature/contraction/proposal.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 
@@ -34,7 +35,7 @@ const std::array<Case, 4> kCases{{{{0.0005, 0.0005, 0.01, 0.0}, 0.077, 0.0326},
                                   {{0.0065, 0.0065, 0.01, 0.0}, 0.29, 0.0692},
                                   {{0.0023, 0.0023, 0.05, 0.0}, 0.064, 0.0282}}};
 
-ToneModel<Interval> exact(const ToneModel<double>& d) {
+ToneModel<Interval> exact_design(const ToneModel<double>& d) {
   return {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)};
 }
 
@@ -47,7 +48,7 @@ Verification certify(const ProposalRequest& request) {
   }
   for (const double fraction : {0.8, 0.65, 0.5, 0.35, 0.2}) {
     if (const auto set = propose_set(request, shapes.front(), fraction)) {
-      last = verify_certified_set(exact(request.design), *set);
+      last = verify_certified_set(exact_design(request.design), *set);
       if (last.verdict == Verdict::proved) {
         break;
       }
@@ -113,28 +114,28 @@ class Simulation {
   double frequency_;
 };
 
-double smallest_eigenvalue(const Eigen::Matrix3d& m) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(0.5 * (m + m.transpose())).eigenvalues()(0);
+double least_eigenvalue_of(const Eigen::Matrix3d& m) {
+  return oracle::least_eigenvalue(0.5 * (m + m.transpose()));
 }
 
 /// Is the filter in the set, up to rounding?
 bool is_inside(const CertifiedSet& set, const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
   constexpr double kSlack = 1e-10;
   return (set.metric * error).norm() <= set.radius * (1.0 + kSlack) &&
-         smallest_eigenvalue(covariance - set.covariance_lower) >= -kSlack &&
-         smallest_eigenvalue(set.covariance_upper - covariance) >= -kSlack;
+         least_eigenvalue_of(covariance - set.covariance_lower) >= -kSlack &&
+         least_eigenvalue_of(set.covariance_upper - covariance) >= -kSlack;
 }
 
 /// A covariance of the set on or near its boundary: C + D Y D with |Y| <= 1.
 Eigen::Matrix3d random_covariance_of(const CertifiedSet& set, test::Random& random) {
   const Eigen::Matrix3d middle = 0.5 * (set.covariance_lower + set.covariance_upper);
   const Eigen::Matrix3d half = 0.5 * (set.covariance_upper - set.covariance_lower);
-  const Eigen::Matrix3d d = half.llt().matrixL();
+  const Eigen::Matrix3d d = oracle::cholesky_factor(half);
   Eigen::Matrix3d a;
   for (int i = 0; i < 9; ++i) {
     a(i / 3, i % 3) = random.uniform(-1.0, 1.0);
   }
-  const Eigen::Matrix3d q = a.householderQr().householderQ();
+  const Eigen::Matrix3d q = oracle::orthogonal_factor(a);
   Eigen::Vector3d y;
   for (int i = 0; i < 3; ++i) {
     y(i) = random.below(2) == 0 ? (random.below(2) == 0 ? 1.0 : -1.0) : random.uniform(-1.0, 1.0);
@@ -238,19 +239,19 @@ TEST_CASE("a set that is too large does not verify") {
     REQUIRE(set.has_value());
     CertifiedSet larger = *set;
     larger.radius *= 3.0;
-    CHECK(verify_certified_set(exact(one.design), larger).verdict == Verdict::undecided);
+    CHECK(verify_certified_set(exact_design(one.design), larger).verdict == Verdict::undecided);
     CertifiedSet faster = *set;
     faster.rate = 0.3;
-    CHECK(verify_certified_set(exact(one.design), faster).verdict == Verdict::undecided);
+    CHECK(verify_certified_set(exact_design(one.design), faster).verdict == Verdict::undecided);
     CertifiedSet noisier = *set;
     noisier.noise = 0.5;
-    CHECK(verify_certified_set(exact(one.design), noisier).verdict == Verdict::undecided);
+    CHECK(verify_certified_set(exact_design(one.design), noisier).verdict == Verdict::undecided);
     CertifiedSet slewing = *set;
     slewing.slew = (*set).radius;
-    CHECK(verify_certified_set(exact(one.design), slewing).verdict == Verdict::undecided);
+    CHECK(verify_certified_set(exact_design(one.design), slewing).verdict == Verdict::undecided);
     CertifiedSet narrower = *set;
     narrower.covariance_upper = 0.5 * (narrower.covariance_upper + narrower.covariance_lower);
-    CHECK(verify_certified_set(exact(one.design), narrower).verdict == Verdict::undecided);
+    CHECK(verify_certified_set(exact_design(one.design), narrower).verdict == Verdict::undecided);
   }
 }
 
@@ -260,7 +261,7 @@ TEST_CASE("proposals with NaN, infinities, wrong signs or a wrong form never ver
   REQUIRE(!shapes.empty());
   const auto set = propose_set(request, shapes.front(), 0.4);
   REQUIRE(set.has_value());
-  REQUIRE(verify_certified_set(exact(kCases[1].design), *set).verdict == Verdict::proved);
+  REQUIRE(verify_certified_set(exact_design(kCases[1].design), *set).verdict == Verdict::proved);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity, -infinity, -1.0}) {
@@ -268,23 +269,23 @@ TEST_CASE("proposals with NaN, infinities, wrong signs or a wrong form never ver
       CertifiedSet broken = *set;
       broken.metric(entry / 3, entry % 3) = bad;
       if (entry != 5 || bad != -1.0) {  // the coupling may be negative
-        CHECK(verify_certified_set(exact(kCases[1].design), broken).verdict == Verdict::undecided);
+        CHECK(verify_certified_set(exact_design(kCases[1].design), broken).verdict == Verdict::undecided);
       }
       broken = *set;
       broken.covariance_lower(entry / 3, entry % 3) = bad;
-      CHECK(verify_certified_set(exact(kCases[1].design), broken).verdict == Verdict::undecided);
+      CHECK(verify_certified_set(exact_design(kCases[1].design), broken).verdict == Verdict::undecided);
       broken = *set;
       broken.covariance_upper(entry / 3, entry % 3) = bad;
-      CHECK(verify_certified_set(exact(kCases[1].design), broken).verdict == Verdict::undecided);
+      CHECK(verify_certified_set(exact_design(kCases[1].design), broken).verdict == Verdict::undecided);
     }
     for (double CertifiedSet::*member :
          {&CertifiedSet::radius, &CertifiedSet::noise, &CertifiedSet::slew, &CertifiedSet::rate}) {
       CertifiedSet broken = *set;
       broken.*member = bad;
-      CHECK(verify_certified_set(exact(kCases[1].design), broken).verdict == Verdict::undecided);
+      CHECK(verify_certified_set(exact_design(kCases[1].design), broken).verdict == Verdict::undecided);
     }
     for (int entry = 0; entry < 4; ++entry) {
-      ToneModel<Interval> design = exact(kCases[1].design);
+      ToneModel<Interval> design = exact_design(kCases[1].design);
       (entry == 0   ? design.q1
        : entry == 1 ? design.q2
        : entry == 2 ? design.r
@@ -294,7 +295,7 @@ TEST_CASE("proposals with NaN, infinities, wrong signs or a wrong form never ver
   }
   CertifiedSet slow = *set;
   slow.rate = 1.0;
-  CHECK(verify_certified_set(exact(kCases[1].design), slow).verdict == Verdict::undecided);
+  CHECK(verify_certified_set(exact_design(kCases[1].design), slow).verdict == Verdict::undecided);
 }
 
 TEST_CASE("without process noise on the amplitude nothing is proposed") {

@@ -2,13 +2,13 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <cmath>
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "analysis/quadrature/contraction/set_search.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 
@@ -36,8 +36,7 @@ TEST_CASE("the limit lies beyond the certified radius, and random starts find no
     CHECK(limit > set.radius);
     CHECK(limit < 10.0 * set.radius);
     CHECK(limit == sampled_radius_limit(set, design));
-    const rigor::Matrix<3> root =
-        Eigen::LLT<rigor::Matrix<3>>(set.covariance_upper - set.covariance_lower).matrixL();
+    const rigor::Matrix<3> root = oracle::cholesky_factor(set.covariance_upper - set.covariance_lower);
     for (std::int64_t k = 0; k < test::effort(20000); ++k) {
       const rigor::Vector<3> e =
           set.metric.inverse() *

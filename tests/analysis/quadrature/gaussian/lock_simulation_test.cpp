@@ -2,7 +2,7 @@
 // that is exceeded here is wrong. It is not tight, so that hardly any run leaves the set.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,6 +12,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/quadrature/gaussian/lock_sets.hpp"
 #include "tests/support/binomial.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/rotating_frame.hpp"
@@ -45,9 +46,7 @@ double level_of_state(const LockSet& set, const trackers::QuadratureEstimate<dou
   const double imaginary = x[1] * std::cos(phase) - x[0] * std::sin(phase);
   const double nu = x[2] - frequency;
   const Matrix p = turned_by(estimate.covariance.matrix(), -phase);
-  const auto largest = [](const Matrix& a, const Matrix& b) {
-    return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(a, b).eigenvalues()[2];
-  };
+  const auto largest = [](const Matrix& a, const Matrix& b) { return oracle::relative_eigenvalues(a, b)[2]; };
   const double s = std::max({0.0, largest(p - matrix_of_block(set.centre), matrix_of_block(set.spread_above)),
                              largest(Matrix(p.inverse()) - Matrix(matrix_of_block(set.centre).inverse()),
                                      matrix_of_block(set.spread_below))});

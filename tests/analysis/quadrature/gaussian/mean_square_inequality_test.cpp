@@ -10,6 +10,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/quadrature/gaussian/lock_sets.hpp"
 #include "tests/analysis/quadrature/gaussian/textbook_filter.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::quadrature {
@@ -51,9 +52,10 @@ double excess(const Example& example, const Eigen::Vector3d& away, const Matrix&
   const auto next = example.filter.step(away, p, frequency);
   const Eigen::Vector3d offset(form.offset[0], form.offset[1], form.offset[2]);
   double after = squared_length(form.metric, next.mean - offset);
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(next.sigma);
+  const Eigen::Vector3d values = oracle::symmetric_eigenvalues(next.sigma);
+  const Matrix directions = oracle::symmetric_eigenvectors(next.sigma);
   for (int i = 0; i < 3; ++i) {
-    after += solver.eigenvalues()[i] * squared_length(form.metric, solver.eigenvectors().col(i));
+    after += values[i] * squared_length(form.metric, directions.col(i));
   }
   const double now = example.filter.level_of(p);
   const double w = std::exp(0.5 * away.dot(example.filter.weight() * away) + 0.5 * set.weight * now * now);

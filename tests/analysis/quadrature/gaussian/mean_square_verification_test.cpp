@@ -7,6 +7,7 @@
 #include "analysis/quadrature/gaussian/mean_square_search.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "tests/analysis/quadrature/gaussian/lock_sets.hpp"
 #include "tests/analysis/quadrature/gaussian/textbook_filter.hpp"
 
 namespace veritrack::quadrature {

@@ -2,13 +2,14 @@
 // set: for tests.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "analysis/quadrature/gaussian/level_cell.hpp"
 #include "analysis/quadrature/gaussian/lock_set.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/tone_model.hpp"
 
@@ -36,7 +37,7 @@ struct TextbookFilter {
   }
   [[nodiscard]] double level_of(const Matrix& p) const {
     const auto largest = [](const Matrix& x, const Matrix& y) {
-      return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(x, y).eigenvalues()[2];
+      return oracle::relative_eigenvalues(x, y)[2];
     };
     const double above = largest(p - whole(set.centre), whole(set.spread_above));
     const double below =
@@ -93,15 +94,15 @@ struct TextbookFilter {
 inline Matrix covariance_of_level(const LockSet& set, double s, test::Random& random) {
   const Matrix high = whole(set.centre) + s * whole(set.spread_above);
   const Matrix low = (whole(set.centre).inverse() + s * whole(set.spread_below)).inverse();
-  const Matrix root = Eigen::LLT<Matrix>(0.5 * (high - low) + 1e-12 * Matrix::Identity()).matrixL();
+  const Matrix root = oracle::cholesky_factor(0.5 * (high - low) + 1e-12 * Matrix::Identity());
   Matrix random_matrix;
   for (int i = 0; i < 9; ++i) {
     random_matrix(i / 3, i % 3) = random.uniform(-1.0, 1.0);
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(random_matrix + random_matrix.transpose());
+  const Matrix directions = oracle::symmetric_eigenvectors(random_matrix + random_matrix.transpose());
   const Eigen::Vector3d signs(random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0,
                               random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0, random.uniform(-1.0, 1.0));
-  const Matrix y = solver.eigenvectors() * signs.asDiagonal() * solver.eigenvectors().transpose();
+  const Matrix y = directions * signs.asDiagonal() * directions.transpose();
   return 0.5 * (high + low) + root * y * root.transpose();
 }
 

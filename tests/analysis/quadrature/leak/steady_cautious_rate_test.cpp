@@ -3,12 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/quadrature/leak/steady_samples.hpp"
 #include "tests/analysis/quadrature/polar_simulation.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::quadrature {
@@ -68,7 +69,7 @@ TEST_CASE("no step of the textbook filter is longer than the cautious rate") {
     Polar start = x;
     start.head<3>() += level * b;
     const Eigen::Vector3d axis = direction();
-    const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(band).matrixL();
+    const Eigen::Matrix3d root = oracle::cholesky_factor(band);
     const Eigen::Matrix3d p =
         steady +
         level * (root * (2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity()) * root.transpose());

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "analysis/quadrature/leak/steady_proposal.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "tests/analysis/quadrature/polar_simulation.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 
 using namespace veritrack;
@@ -59,7 +60,7 @@ Example example_of(double q, double r, double epsilon, double low, double high, 
 /// The smallest s with -s below <= deviation <= s above.
 double covariance_level(const SteadySet& set, const Eigen::Matrix3d& deviation) {
   const auto share = [](const Eigen::Matrix3d& bound, const Eigen::Matrix3d& x) {
-    return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(x, bound).eigenvalues()[2];
+    return oracle::relative_eigenvalues(x, bound)[2];
   };
   return std::max(share(set.above, deviation), share(set.below, -deviation));
 }
@@ -75,14 +76,13 @@ double level_of(const SteadySet& set, const Polar& deviation) {
 Polar rim(const SteadySet& set, double s, test::Random& random) {
   Eigen::Vector3d u(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
   const Eigen::Vector3d error = set.metric.inverse() * u.normalized() * s;
-  const Eigen::LLT<Eigen::Matrix3d> factor(set.above + set.below);
   Eigen::Matrix3d y = Eigen::Matrix3d::Zero();
   const Eigen::Vector3d axis =
       Eigen::Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0))
           .normalized();
   y = random.uniform() < 0.5 ? Eigen::Matrix3d(axis * axis.transpose())
                              : Eigen::Matrix3d(Eigen::Matrix3d::Identity() - axis * axis.transpose());
-  const Eigen::Matrix3d root = factor.matrixL();
+  const Eigen::Matrix3d root = oracle::cholesky_factor(set.above + set.below);
   const Eigen::Matrix3d p = s * (root * y * root.transpose() - set.below);
   Polar result;
   result << error, p(0, 0), p(0, 1), p(0, 2), p(1, 1), p(1, 2), p(2, 2);

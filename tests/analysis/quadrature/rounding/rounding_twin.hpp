@@ -1,11 +1,12 @@
 // The tracker in double precision beside its twin in long double: what rounding does, without any analysis.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/quadrature/rounding/step_rounding.hpp"
+#include "tests/support/oracles.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
@@ -46,12 +47,11 @@ inline quadrature::StateDifference difference_of(const Twins& twins) {
   const auto computed = estimate_as<Wide>(twins.computed);
   const WideMatrix d = computed.covariance.matrix() - twins.exact.covariance.matrix();
   const Eigen::Matrix<Wide, 2, 2> zz = d.topLeftCorner<2, 2>();
-  return {
-      static_cast<double>(
-          std::hypot(computed.in_phase - twins.exact.in_phase, computed.quadrature - twins.exact.quadrature)),
-      static_cast<double>(std::fabs(computed.frequency - twins.exact.frequency)),
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(zz.cast<double>()).eigenvalues().cwiseAbs().maxCoeff(),
-      static_cast<double>(std::hypot(d(0, 2), d(1, 2))), static_cast<double>(std::fabs(d(2, 2)))};
+  return {static_cast<double>(std::hypot(computed.in_phase - twins.exact.in_phase,
+                                         computed.quadrature - twins.exact.quadrature)),
+          static_cast<double>(std::fabs(computed.frequency - twins.exact.frequency)),
+          oracle::symmetric_eigenvalues(zz.cast<double>()).cwiseAbs().maxCoeff(),
+          static_cast<double>(std::hypot(d(0, 2), d(1, 2))), static_cast<double>(std::fabs(d(2, 2)))};
 }
 
 /// The five ratios.
@@ -74,12 +74,12 @@ inline Eigen::Matrix3d between(Random& random, const Eigen::Matrix3d& low, const
   for (int i = 0; i < 9; ++i) {
     a(i) = random.uniform(-1.0, 1.0);
   }
-  const Eigen::Matrix3d axes = Eigen::HouseholderQR<Eigen::Matrix3d>(a).householderQ();
+  const Eigen::Matrix3d axes = oracle::orthogonal_factor(a);
   Eigen::Vector3d share;
   for (int i = 0; i < 3; ++i) {
     share[i] = random.below(2) == 0 ? static_cast<double>(random.below(2)) : random.uniform();
   }
-  const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(high - low).matrixL();
+  const Eigen::Matrix3d root = oracle::cholesky_factor(high - low);
   return low + root * axes * share.asDiagonal() * axes.transpose() * root.transpose();
 }
 
@@ -95,8 +95,7 @@ inline double distance(const Eigen::Matrix3d& metric, const WidePolar& a, const 
 /// The least m with -m P <= A - B <= m P.
 inline double share_of_difference(const Eigen::Matrix3d& p, const WidePolar& a, const WidePolar& b) {
   const Eigen::Matrix3d d = (a.covariance.matrix() - b.covariance.matrix()).cast<double>();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(0.5 * (d + d.transpose()), p);
-  return solver.eigenvalues().cwiseAbs().maxCoeff();
+  return oracle::relative_eigenvalues(0.5 * (d + d.transpose()), p).cwiseAbs().maxCoeff();
 }
 
 }  // namespace veritrack::test

@@ -2,10 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "tests/analysis/theorems/tracker_inputs.hpp"
+#include "tests/support/oracles.hpp"
 
 namespace {
 
@@ -26,7 +27,7 @@ Moments exact_moments(const Eigen::Matrix3d& p, double m) {
   const double small = (7.0 - 2.0 * std::sqrt(10.0)) / 60.0;
   const double large = (7.0 + 2.0 * std::sqrt(10.0)) / 60.0;
   const double weight[5] = {small, large, 8.0 / 15.0, large, small};
-  const Eigen::Matrix3d root = p.llt().matrixL();
+  const Eigen::Matrix3d root = oracle::cholesky_factor(p);
   Moments moments{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
   for (int i = 0; i < 125; ++i) {

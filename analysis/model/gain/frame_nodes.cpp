@@ -30,9 +30,11 @@ double disc_radius(const Interval& amplitude, int magnitude, int order, double n
   if (!(noise < amplitude.lower())) {
     return INFINITY;
   }
-  const Interval power = whole_power(amplitude, magnitude);
+  // Differences of powers grow with the amplitude, or fall where the power is negative.
+  const Interval worst(magnitude >= 0 ? amplitude.upper() : amplitude.lower());
+  const Interval power = whole_power(worst, magnitude);
   const Interval change =
-      hull(whole_power(amplitude + v, magnitude) - power, whole_power(amplitude - v, magnitude) - power);
+      hull(whole_power(worst + v, magnitude) - power, whole_power(worst - v, magnitude) - power);
   const Interval angle =
       Interval(static_cast<double>(std::abs(order))) * rigor::asin(v / Interval(amplitude.lower()));
   const double turned = std::min(angle.upper(), rigor::pi().upper());

@@ -34,6 +34,15 @@ double proved_reach(const ProvedSet& set) {
   return set.is_proved() ? set.reach : 0.0;
 }
 
+/// Tubes may prove more of a loop that keeps vectors whose length matters, where noise is large.
+bool is_best_of_two_channels(const ProvedSets& by_gains) {
+  const std::vector<SteadyValue>& steady = by_gains.gains->steady;
+  const bool has_lengths = std::any_of(steady.begin(), steady.end(), [&](const SteadyValue& each) {
+    return each.imaginary && has_length(each, steady);
+  });
+  return !has_lengths || by_gains.deciding().is_proved();
+}
+
 /// Adds what gains on the average prove of noise and starts, where that is more than tubes have.
 void add_averages(ProvedSets by_gains, ProvedSets& sets) {
   if (!(tolerated_noise(by_gains.noise) > tolerated_noise(sets.noise)) &&
@@ -89,7 +98,8 @@ FirstProof prove_by_gains_first(const SetQuestion& question) {
   if (!first.by_gains) {
     first.no_gains = std::move(reason);
   }
-  first.is_enough = first.by_gains && (recursion.samples > 1 || is_near_linear(*first.by_gains));
+  first.is_enough = first.by_gains && (recursion.samples > 1 ? is_best_of_two_channels(*first.by_gains)
+                                                             : is_near_linear(*first.by_gains));
   if (!first.is_enough) {
     first.objection = objection_to_tubes(question);
   }
@@ -105,7 +115,8 @@ ChosenProof choose_proof(const SetQuestion& question, std::optional<ProvedSets> 
     chosen.is_by_gains = true;
     return chosen;
   }
-  if (by_gains && by_gains->gains && by_gains->gains->gains) {
+  const bool is_one_channel = question.tracker.recursion->samples == 1;
+  if (is_one_channel && by_gains && by_gains->gains && by_gains->gains->gains) {
     add_averages(*std::move(by_gains), chosen.sets);
   }
   add_phases(question, chosen);

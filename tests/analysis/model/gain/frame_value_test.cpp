@@ -405,7 +405,7 @@ TEST_CASE("of a vector of states the angle is known, up to whole turns, and its 
   }
   CHECK_THROWS_AS((void)frame.line_of(y1 * p + y2 * r), NoFrame);
   CHECK_THROWS_AS((void)frame.line_of(p * p + r * r), NoFrame);
-  CHECK_THROWS_AS((void)(y1 / sqrt(p * p + r * r)), NoFrame);
+  CHECK_THROWS_AS((void)frame.line_of(y1 * p + y2 * r / sqrt(p * p + r * r)), NoFrame);
   CHECK_THROWS_AS((void)asin(p), NoFrame);
 }
 

@@ -23,7 +23,7 @@ TEST_CASE("sums over lags that are taken one by one are within their bounds, and
   CHECK(test::attack_sums(plain, gridding, 501) > 0.98);
   // Each for itself: what it costs would hide what another one misses.
   CHECK(with([](test::HandMade& of) { of.channels = 2; }, 502) > 0.98);
-  CHECK(with([](test::HandMade& of) { of.error = 0.1; }, 503) > 0.8);
+  CHECK(with([](test::HandMade& of) { of.error = 0.1; }, 503) > 0.5);
   CHECK(with([](test::HandMade& of) { of.off = 0.05; }, 504) > 0.6);
   CHECK(with([](test::HandMade& of) { of.residual = 0.2; }, 505) > 0.7);
   CHECK(with([](test::HandMade& of) { of.lean = 0.2; }, 506) > 0.6);

@@ -65,8 +65,10 @@ From tests/certificates/model-phases.toml, a loop of one channel with a ripple:
 model-phases      its gains over the phases and on the average, and the tubes on which its bias rests
 From tests/certificates/model-gains-linear.toml, as it is:
 model-gains-linear  what [require] asks of a linear loop
-From tests/certificates/model-gains-arms.toml, as it is:
+From tests/certificates/model-gains-arms.toml, model-gains-observer.toml and model-gains-control.toml, as they are:
 model-gains-arms    a loop with the arc tangent of two filtered values
+model-gains-observer  a vector of states whose length matters, on a band through 0
+model-gains-control   samples times a state, with amplitudes in a range
 From tests/certificates/model-gains-limits.toml, model-gains-signs.toml and model-kinks.toml, as they are:
 model-gains-limits  a loop with a clamp that acts and one that does not
 model-gains-signs   a loop whose detector has signs, conditions and absolute values
@@ -506,6 +508,8 @@ KINDS = {
     "model-gains-one-channel": lambda certificate: None,
     "model-phases": model_phases,
     "model-gains-arms": lambda certificate: None,
+    "model-gains-observer": lambda certificate: None,
+    "model-gains-control": lambda certificate: None,
     "model-gains-limits": lambda certificate: None,
     "model-gains-linear": lambda certificate: None,
     "model-gains-signs": lambda certificate: None,

@@ -87,15 +87,47 @@ FrameLine Frame::direction_of(const FrameValue& real, const FrameValue& imaginar
   return FrameRules::whole_angle(*this, pattern);
 }
 
-std::array<FrameLine, 2> Frame::polar_of(const FrameValue& real, const FrameValue& imaginary, int turns,
-                                         double constant, double per_frequency) {
+namespace {
+
+/// What is kept of a vector itself, turned by an angle, in its next real part.
+std::optional<Monomial> own_wave(Frame& frame, const FrameValue& real, int length, int turns) {
+  if (real.kind() != Kind::waves) {
+    return std::nullopt;
+  }
+  for (const auto& [monomial, weights] : real.waves()) {
+    const bool is_own = monomial.lengths.contains(length) && monomial.order == 0 && weights.real > 0.0 &&
+                        weights.imaginary == 0.0;
+    if (is_own && FrameRules::phase_of(frame, monomial).turns == turns) {
+      return monomial;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::array<FrameLine, 2> Frame::polar_of(const FrameValue& real, const FrameValue& imaginary, int length,
+                                         int turns, double constant, double per_frequency) {
+  Monomial unit;
   FrameLine steady;
-  steady.turns = turns;
-  steady.constant = Interval(constant);
-  steady.per_frequency = Interval(per_frequency) + Interval(static_cast<double>(turns));
-  const FrameValue angle(this, names_++, steady);
-  const FrameValue cosine = cos(angle);
-  const FrameValue sine = sin(angle);
+  if (const auto own = own_wave(*this, real, length, turns)) {
+    unit.angles = own->angles;
+    steady = FrameRules::phase_of(*this, unit);
+  } else {
+    steady.turns = turns;
+    steady.constant = Interval(constant);
+    steady.per_frequency = Interval(per_frequency) + Interval(static_cast<double>(turns));
+    const int name = names_++;
+    FrameRules::keep_angle(*this, name, steady);
+    unit.angles[name] = 1;
+  }
+  const auto part = [&](double of_real, double of_imaginary) {
+    Waves waves;
+    FrameRules::add_wave(waves, unit, {of_real, of_imaginary});
+    return FrameValue(this, names_++, Kind::waves, std::move(waves));
+  };
+  const FrameValue cosine = part(1.0, 0.0);
+  const FrameValue sine = part(0.0, 1.0);
   const FrameValue along = real * cosine + imaginary * sine;
   const FrameValue across = imaginary * cosine - real * sine;
   FrameLine turned = FrameRules::sum_of(steady, line_of(atan2(across, along)), false);

@@ -160,10 +160,12 @@ class Frame {
   /// The angle of a vector with these two parts, up to whole turns, where its length is certainly positive
   /// and depends on that of no vector before. Throws NoFrame.
   [[nodiscard]] FrameLine direction_of(const FrameValue& real, const FrameValue& imaginary);
-  /// The angle of a vector, up to whole turns, and its length, near turns (phi + omega) + constant +
-  /// per_frequency omega. Throws NoFrame.
+  /// The angle of a vector, up to whole turns, and its length: seen from the direction of what is kept of the
+  /// vector whose length has this name, or else from turns (phi + omega) + constant + per_frequency omega.
+  /// Throws NoFrame.
   [[nodiscard]] std::array<FrameLine, 2> polar_of(const FrameValue& real, const FrameValue& imaginary,
-                                                  int turns, double constant, double per_frequency);
+                                                  int length, int turns, double constant,
+                                                  double per_frequency);
   /// A linear value equal to this one. Throws NoFrame where it depends on the phase.
   [[nodiscard]] FrameLine line_of(const FrameValue& value);
 

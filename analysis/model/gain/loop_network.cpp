@@ -111,8 +111,8 @@ class Assembly {
       const std::size_t other = *each.imaginary;
       is_part[i] = is_part[other] = true;
       if (has_length(each, *steady_)) {
-        const auto both =
-            frame_.polar_of(results[i], results[other], each.turns, each.constant, each.per_frequency);
+        const auto both = frame_.polar_of(results[i], results[other], length_of(each).name(), each.turns,
+                                          each.constant, each.per_frequency);
         next_[i] = both[0];
         next_[other] = both[1];
       } else {
@@ -125,18 +125,21 @@ class Assembly {
     }
   }
 
+  /// The length of a vector; a constant where it may be any.
+  [[nodiscard]] FrameValue length_of(const SteadyValue& vector) {
+    const SteadyValue& rest = (*steady_)[*vector.imaginary];
+    return has_length(vector, *steady_) ? frame_.state(static_cast<int>(*vector.imaginary), false, 0,
+                                                       rest.constant, rest.per_frequency)
+                                        : FrameValue(1);
+  }
+
   [[nodiscard]] std::vector<FrameValue> frame_states() {
     std::vector<std::optional<FrameValue>> parts(states_);
     for (std::size_t i = 0; i < states_; ++i) {
       const SteadyValue& each = (*steady_)[i];
       if (each.imaginary) {
-        const SteadyValue& rest = (*steady_)[*each.imaginary];
-        const FrameValue length =
-            has_length(each, *steady_)
-                ? frame_.state(static_cast<int>(*each.imaginary), false, 0, rest.constant, rest.per_frequency)
-                : FrameValue(1);
-        const auto both =
-            frame_.vector(static_cast<int>(i), each.turns, each.constant, each.per_frequency, length);
+        const auto both = frame_.vector(static_cast<int>(i), each.turns, each.constant, each.per_frequency,
+                                        length_of(each));
         parts[i] = both[0];
         parts[*each.imaginary] = both[1];
       }

@@ -41,14 +41,20 @@ std::array<FrameValue, 2> FrameValue::vector(
 }
 
 std::array<int, 2> FrameValue::polar(const FrameValue& real, const FrameValue& imaginary,
-                                     const LinearValue& steady_angle, std::size_t state) {
-  const int steady = frame().made("steady angle " + std::to_string(state), [&] { return steady_angle; });
-  const FrameValue cosine(cosine_wave(steady));
-  const FrameValue sine(sine_wave(steady));
+                                     const LinearValue& steady_angle, std::size_t length) {
+  const std::string name = "state " + std::to_string(length);
+  const std::optional<Wave> own =
+      real.is_sum_of_waves() ? own_wave(frame(), *real.waves(), frame().known(name), steady_angle.turns)
+                             : std::nullopt;
+  const int direction =
+      own ? angle_of(frame(), *own) : frame().made("steady angle of " + name, [&] { return steady_angle; });
+  const FrameValue cosine(own ? Waves{{*own, {kExactUnit, 0}}} : cosine_wave(direction));
+  const FrameValue sine(own ? Waves{{*own, {0, kExactUnit}}} : sine_wave(direction));
   const FrameValue along = real * cosine + imaginary * sine;
   const FrameValue across = imaginary * cosine - real * sine;
   const int turned = arctangent2(across, along).linear();
-  return {frame().modulo_turn(frame().sum(steady, turned)), frame().length(across.linear(), along.linear())};
+  return {frame().modulo_turn(frame().sum(direction, turned)),
+          frame().length(across.linear(), along.linear())};
 }
 
 int FrameValue::direction(const FrameValue& real, const FrameValue& imaginary) {

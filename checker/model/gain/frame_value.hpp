@@ -28,9 +28,11 @@ class FrameValue {
   /// The number of the angle of a vector, modulo a turn. Its length is certainly positive where noise is
   /// below every amplitude, and depends on that of no vector before. Throws NotCovered.
   static int direction(const FrameValue& real, const FrameValue& imaginary);
-  /// The numbers of the angle, modulo a turn, and the length of a vector near this angle. Throws NotCovered.
+  /// The numbers of the angle, modulo a turn, and the length of a vector: seen from the direction of what is
+  /// kept of it, which has its length, the state of this number, as a factor; or else from the steady angle.
+  /// Throws NotCovered.
   static std::array<int, 2> polar(const FrameValue& real, const FrameValue& imaginary,
-                                  const LinearValue& steady_angle, std::size_t state);
+                                  const LinearValue& steady_angle, std::size_t length);
   static FrameValue sample(std::size_t channel) { return FrameValue(sample_waves(channel)); }
 
   static FrameValue sample_of_one() { return FrameValue(sample_of_one_channel()); }

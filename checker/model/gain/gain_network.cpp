@@ -167,7 +167,7 @@ std::vector<int> next_numbers(LinearFrame& frame, const std::vector<FrameValue>&
                           steady[i].per_frequency + Ball(static_cast<double>(steady[i].turns)),
                           {},
                           false};
-        const auto parts = FrameValue::polar(values[i], values[*imaginary], angle, i);
+        const auto parts = FrameValue::polar(values[i], values[*imaginary], angle, *imaginary);
         numbers[i] = parts[0];
         numbers[*imaginary] = parts[1];
         continue;

@@ -103,6 +103,8 @@ class LinearFrame {
   int modulo_turn(int x);
   /// A value made otherwise, once for each name.
   int made(const std::string& name, const std::function<LinearValue()>& make);
+  /// The number of a value that was made with this name.
+  [[nodiscard]] int known(const std::string& name) const { return names_.at(name); }
   /// A new input; returns its source.
   std::size_t add_input(FrameInput input);
   /// The input of this name, made once; returns its source.

@@ -39,7 +39,8 @@ Ball noise_in_wave(const Ball& least, const Ball& largest, int s, int m, const B
   return max(above, below) + two * of_amplitude * sin(half * angle);
 }
 
-/// turns (phi + omega) + sum of times L.
+}  // namespace
+
 int angle_of(LinearFrame& frame, const Wave& wave) {
   int result = frame.number(zero);
   if (wave.turns != 0) {
@@ -51,7 +52,17 @@ int angle_of(LinearFrame& frame, const Wave& wave) {
   return result;
 }
 
-}  // namespace
+std::optional<Wave> own_wave(LinearFrame& frame, const Waves& waves, int length, long turns) {
+  for (const auto& [wave, gamma] : waves) {
+    const bool is_own = wave.turns == 0 && wave.noise == 0 && gamma[0] > 0 && gamma[1] == 0 &&
+                        std::any_of(wave.lengths.begin(), wave.lengths.end(),
+                                    [&](const auto& of) { return of.first == length; });
+    if (is_own && frame.at(angle_of(frame, wave)).turns == turns) {
+      return Wave{{}, 0, 0, wave.angles};
+    }
+  }
+  return std::nullopt;
+}
 
 bool keeps_positive(LinearFrame& frame, const Wave& wave) {
   return std::all_of(wave.lengths.begin(), wave.lengths.end(), [&](const auto& length) {

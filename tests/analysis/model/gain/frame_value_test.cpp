@@ -317,9 +317,10 @@ TEST_CASE("a vector whose length matters stays within the lines of its angle and
   Frame frame(Interval(kAmplitude), Interval::from_bounds(kOmega, kOmega + 1e-7), 3);
   const FrameValue length = frame.state(1, false, 0, 1.1, 0.2);
   const FrameValue w = frame.state(2, false, 0, 0.0, 1.0);
+  const int kLength = length.name();
   const auto next = observed<FrameValue>(frame.vector(0, 1, 0.1, 0.5, length), w, frame.sample(0),
                                          frame.sample(1), frame.constant(0, Interval(kK)), FrameValue(1));
-  const auto lines = frame.polar_of(next[0], next[1], 1, 0.1, 0.5);
+  const auto lines = frame.polar_of(next[0], next[1], kLength, 1, 0.1, 0.5);
   CHECK(lines[0].turns == 1);
   CHECK(lines[0].is_modular);
   CHECK(lines[1].turns == 0);
@@ -353,10 +354,11 @@ TEST_CASE("a vector whose length matters stays within the lines of its angle and
       CHECK(room < 1.0);  // or nothing was shown
     }
   }
-  CHECK_THROWS_AS((void)frame.polar_of(frame.sample(0), FrameValue(-1) * frame.sample(1), 1, 0.1, 0.5),
-                  NoFrame);
-  CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], 0, 0.1, 0.5), NoFrame);  // it turns
-  CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], 1, 3.1, 0.5), NoFrame);  // it points backwards
+  CHECK_THROWS_AS(
+      (void)frame.polar_of(frame.sample(0), FrameValue(-1) * frame.sample(1), kLength, 1, 0.1, 0.5), NoFrame);
+  CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], kLength, 0, 0.1, 0.5), NoFrame);  // it turns
+  CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], kLength, 1, 3.1, 0.5),
+                  NoFrame);  // it points backwards
 }
 
 TEST_CASE("a factor that may be 0 is not divided by, and its root is not taken") {

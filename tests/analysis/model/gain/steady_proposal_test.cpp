@@ -24,7 +24,8 @@ std::vector<SteadyValue> proposed(const test::TwoChannelExample& loop, const Pro
 
 TEST_CASE("pairs of states that are no angles may be vectors, with two channels") {
   const test::TwoChannelExample turn(test::turn_between_samples(0.2));
-  CHECK(possible_vectors(turn.model).size() == 12);  // ordered pairs of three, turning and at rest
+  CHECK(possible_vectors(turn.model).size() ==
+        24);  // ordered pairs of three, turning or not, with a length or not
   const test::TwoChannelExample loop(test::two_channel_loop(0.2, 0.01, test::Detector::sine));
   CHECK(possible_vectors(loop.model).empty());
 }
@@ -48,6 +49,19 @@ TEST_CASE("a copy of the samples is a vector that turns with the signal") {
   CHECK((state - Eigen::Vector3d(2.5 * std::cos(0.7), 2.5 * std::sin(0.7), 0.3)).norm() < 1e-12);
   const Eigen::VectorXd change = state_per_frequency(loop.tone, steady, 0.7, 0.3);
   CHECK((change - Eigen::Vector3d(0.0, 0.0, 1.0)).norm() < 1e-9);
+}
+
+TEST_CASE("the length of a vector is known where it matters") {
+  const test::TwoChannelExample loop(test::turn_between_samples(0.2, 2.5));
+  const std::vector<SteadyValue> steady = proposed(loop, {0, 1, 1, true});
+  REQUIRE(steady.size() == 3);
+  CHECK(steady[1].constant == doctest::Approx(2.5));
+  CHECK(std::fabs(steady[1].per_frequency) < 1e-9);
+  CHECK(has_length(steady[0], steady));
+  CHECK(vector_of(steady)->has_length);
+  const rigor::NearestRounding nearest;
+  const Eigen::VectorXd state = state_at(loop.tone, steady, 0.7, 0.3);
+  CHECK((state - Eigen::Vector3d(2.5 * std::cos(0.7), 2.5 * std::sin(0.7), 0.3)).norm() < 1e-9);
 }
 
 TEST_CASE(

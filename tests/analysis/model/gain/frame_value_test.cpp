@@ -357,7 +357,7 @@ TEST_CASE("a vector whose length matters stays within the lines of its angle and
   CHECK_THROWS_AS(
       (void)frame.polar_of(frame.sample(0), FrameValue(-1) * frame.sample(1), kLength, 1, 0.1, 0.5), NoFrame);
   CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], kLength, 0, 0.1, 0.5), NoFrame);  // it turns
-  CHECK_THROWS_AS((void)frame.polar_of(next[0], next[1], kLength, 1, 3.1, 0.5),
+  CHECK_THROWS_AS((void)frame.polar_of(frame.sample(0), frame.sample(1), kLength, 1, 3.1, 0.5),
                   NoFrame);  // it points backwards
 }
 

@@ -91,28 +91,40 @@ std::optional<FoundLoop> find_loop(const SetQuestion& question, const std::optio
   return first;
 }
 
+/// With two states that are the parts of a vector; empty where no pair is one.
+std::optional<FoundLoop> find_loop_with_vector(const SetQuestion& question, bool has_length) {
+  const auto is_off = [&](std::size_t state) {
+    return question.assumes_start && question.deviations.at(state).upper() > 0.0;
+  };
+  for (const ProposedVector& vector : possible_vectors(question.tracker)) {
+    if (vector.has_length != has_length || is_off(vector.real) || is_off(vector.imaginary)) {
+      continue;
+    }
+    try {
+      if (std::optional<FoundLoop> found = find_loop(question, vector)) {
+        return found;
+      }
+    } catch (const NoFrame&) {
+      continue;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
+// Where a direction alone matters, as one angle it is as good as linear; as two numbers it is not.
 std::optional<FoundLoop> find_loop(const SetQuestion& question) {
+  if (std::optional<FoundLoop> found = find_loop_with_vector(question, false)) {
+    return found;
+  }
   try {
     return find_loop(question, std::nullopt);
   } catch (const NoFrame&) {
-    for (const ProposedVector& vector : possible_vectors(question.tracker)) {
-      const auto is_off = [&](std::size_t state) {
-        return question.assumes_start && question.deviations.at(state).upper() > 0.0;
-      };
-      try {
-        if (is_off(vector.real) || is_off(vector.imaginary)) {
-          continue;
-        }
-        if (std::optional<FoundLoop> found = find_loop(question, vector)) {
-          return found;
-        }
-      } catch (const NoFrame&) {
-        continue;  // what is said of the first attempt is of more use
-      }
+    if (std::optional<FoundLoop> found = find_loop_with_vector(question, true)) {
+      return found;
     }
-    throw;
+    throw;  // what is said of the first attempt is of more use
   }
 }
 

@@ -110,12 +110,14 @@ ChosenProof choose_proof(const SetQuestion& question, std::optional<ProvedSets> 
                          const SetProgress& progress) {
   ChosenProof chosen;
   chosen.sets = prove_sets(question, progress);
-  if (by_gains && by_gains->deciding().is_proved() && !chosen.sets.deciding().is_proved()) {
+  const bool is_one_channel = question.tracker.recursion->samples == 1;
+  // With two channels gains prove something even where they do not decide.
+  if (by_gains && !chosen.sets.deciding().is_proved() &&
+      (by_gains->deciding().is_proved() || !is_one_channel)) {
     chosen.sets = *std::move(by_gains);
     chosen.is_by_gains = true;
     return chosen;
   }
-  const bool is_one_channel = question.tracker.recursion->samples == 1;
   if (is_one_channel && by_gains && by_gains->gains && by_gains->gains->gains) {
     add_averages(*std::move(by_gains), chosen.sets);
   }

@@ -184,7 +184,7 @@ LinearValue LinearFrame::product_of_plain(int x, int y) {
   const Ball of_right = base(right);
   LinearValue result;
   if (certainly_equal(left.per_frequency, zero) || certainly_equal(right.per_frequency, zero)) {
-    result.constant = left.constant * right.constant;
+    result.constant = product_of_ends(left.constant, right.constant, x == y);
     result.per_frequency = left.per_frequency * right.constant + right.per_frequency * left.constant;
   } else {
     result.constant = product_of_ends(of_left, of_right, x == y);

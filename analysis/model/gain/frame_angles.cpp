@@ -95,8 +95,8 @@ std::optional<Monomial> own_wave(Frame& frame, const FrameValue& real, int lengt
     return std::nullopt;
   }
   for (const auto& [monomial, weights] : real.waves()) {
-    const bool is_own = monomial.lengths.contains(length) && monomial.order == 0 && weights.real > 0.0 &&
-                        weights.imaginary == 0.0;
+    const bool is_own = !monomial.is_real() && monomial.lengths.contains(length) && monomial.order == 0 &&
+                        weights.real > 0.0 && weights.imaginary == 0.0;
     if (is_own && FrameRules::phase_of(frame, monomial).turns == turns) {
       return monomial;
     }

@@ -54,7 +54,9 @@ int angle_of(LinearFrame& frame, const Wave& wave) {
 
 std::optional<Wave> own_wave(LinearFrame& frame, const Waves& waves, int length, long turns) {
   for (const auto& [wave, gamma] : waves) {
-    const bool is_own = wave.turns == 0 && wave.noise == 0 && gamma[0] > 0 && gamma[1] == 0 &&
+    // A real wave has no direction.
+    const bool is_own = !wave.is_real() && wave.turns == 0 && wave.noise == 0 && gamma[0] > 0 &&
+                        gamma[1] == 0 &&
                         std::any_of(wave.lengths.begin(), wave.lengths.end(),
                                     [&](const auto& of) { return of.first == length; });
     if (is_own && frame.at(angle_of(frame, wave)).turns == turns) {

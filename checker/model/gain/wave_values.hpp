@@ -27,8 +27,8 @@ bool turns_with_signal(LinearFrame& frame, const Waves& waves);
 
 /// The value turns (phi + omega) + sum of times L of a wave.
 int angle_of(LinearFrame& frame, const Wave& wave);
-/// The angles of the first wave with this length as a factor, a positive real weight and these turns, none of
-/// them of the sample.
+/// The angles of the first wave, not a real one, with this length as a factor, a positive real weight and
+/// these turns, none of them of the sample.
 std::optional<Wave> own_wave(LinearFrame& frame, const Waves& waves, int length, long turns);
 
 /// As a linear value. Throws NotCovered where a wave depends on the phase; in one channel it is a ripple

@@ -441,6 +441,24 @@ TEST_CASE("a vector whose length matters is an angle and a length") {
   CHECK_FALSE(other.network().is_at_rest);
 }
 
+TEST_CASE("a vector at rest is seen from its own direction, whatever else has its length as a factor") {
+  Loop loop{{"p", "r", "phase", "freq"},
+            {{"a", "0.1"}},
+            "m = i*cos(phase) + q*sin(phase)\ns = q*cos(phase) - i*sin(phase)\n"
+            "p' = 0.25*sqrt(p^2 + r^2) + 0.25*p + 0.5*m\nr' = 0.25*r + 0.5*s\n"
+            "d = atan2(r, p)\nphase' = phase + freq + 0.1*d\nfreq' = freq + 0.01*d\n",
+            "freq",
+            {{0, 0.0, 0.0, 1}, {0, 1.0, 0.0}, {1, 0.0, 1.0}, {0, 0.0, 1.0}}};
+  const auto step = [](const State& x, std::complex<double> y) {
+    const std::complex<double> next =
+        0.25 * x[1] + 0.25 * std::polar(x[1], x[0]) + 0.5 * y * std::polar(1.0, -x[2]);
+    return State{std::arg(next), std::abs(next), x[2] + x[3] + 0.1 * x[0], x[3] + 0.01 * x[0]};
+  };
+  CHECK(covers(loop, step, 0.1, {0.1, 0.1, 0.1, 0.05}));
+  CHECK(covers(loop, step, 0.0, {0.2, 0.1, 0.2, 0.05}));
+  CHECK(loop.network().is_at_rest);
+}
+
 TEST_CASE("a value that is no constant is a factor of what turns with the signal") {
   Loop loop =
       loop_with("n = sqrt((freq*i)^2 + (freq*q)^2)\nd = freq*q*cos(phase) - freq*i*sin(phase) + n - freq");

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "analysis/model/gain/frame_rules.hpp"
+#include "analysis/model/gain/grid_function.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::model {
@@ -125,8 +126,8 @@ double direction_remainder(double along, double across, const Interval& room) {
   // atan(v/(1 - u)) - v grows up to this v, and falls from there on; v - atan(v/(1 + u)) grows.
   const Interval top = sqrt(u * nearest);
   const Interval at = across < top.lower() ? v : top;
-  return std::max((rigor::atan(at / nearest) - at).upper(),
-                  (v - rigor::atan(v / (Interval(1.0) + u))).upper());
+  return larger_or_nan((rigor::atan(at / nearest) - at).upper(),
+                       (v - rigor::atan(v / (Interval(1.0) + u))).upper());
 }
 
 void require_no_turns(const FrameLine& line) {

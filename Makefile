@@ -13,6 +13,8 @@ CHECKER_PACKAGES := g++ cmake make pkg-config libflint-arb-dev libflint-dev libm
 BUILD_PACKAGES := $(CHECKER_PACKAGES) ninja-build libeigen3-dev coinor-libipopt-dev liblapack-dev libnlopt-cxx-dev libcli11-dev libfmt-dev \
   libtbb-dev gnuplot-nox tao-pegtl-dev libsndfile1-dev libcmark-gfm-dev libcmark-gfm-extensions-dev \
   libkainjow-mustache-dev libpugixml-dev libjs-katex
+# From C to a listing: clang compiles, LLVM reads what it made.
+LIFT_PACKAGES  := llvm-14-dev clang
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev libboost-dev python3-jsonschema python3-yaml clang git
 # The package for Python: what it is built with, and what it and its tests run with (sweeps: Dask, Matplotlib, Sobol points)
@@ -70,9 +72,10 @@ checker:
 
 # All programs, for every tracker. The targets below run them: make -j2 --output-sync verify proofs builds it once, and then runs both side by side.
 programs:
-	@scripts/install-packages $(BUILD_PACKAGES) python3-jsonschema
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) python3-jsonschema
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF -DVERITRACK_TRACKERS= >&2
-	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce \
+	  veritrack-lift >&2
 
 # Designs certified, and every certificate checked by a program that shares no code with the one that made it.
 verify: programs
@@ -86,20 +89,21 @@ proofs: programs
 
 # Pages in a browser, formulas rendered, tables through LaTeX: minutes, and large packages.
 pages:
-	@scripts/install-packages $(BUILD_PACKAGES) $(PAGE_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(PAGE_PACKAGES)
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF -DVERITRACK_TRACKERS= >&2
-	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce \
+	  veritrack-lift >&2
 	@scripts/test-pages build/release/veritrack
 
 test:
-	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(PYTHON_TEST_PACKAGES) \
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(TEST_PACKAGES) $(PYTHON_TEST_PACKAGES) \
 	  $(if $(filter nightly,$(TEST_PRESET)),$(PYTHON_NIGHTLY_PACKAGES))
 	cmake --preset release -DVERITRACK_BUILD_TESTS=ON -DVERITRACK_BUILD_PYTHON=ON -DVERITRACK_TRACKERS=
 	cmake --build --preset release --parallel $(JOBS)
 	VERITRACK_TEST_EFFORT=$(VERITRACK_TEST_EFFORT) ctest --preset $(TEST_PRESET) --parallel $(JOBS)
 
 lint:
-	@scripts/install-packages $(BUILD_PACKAGES) $(LINT_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(LINT_PACKAGES)
 	cmake --preset lint
 	scripts/lint build/lint $(LINT_SCOPE)
 
@@ -112,14 +116,14 @@ SANITIZED := rigor_tests statements_tests theorems_tests search_tests trackers_t
   trackers_single_channel_tests trackers_kkl_observer_tests trackers_signals_tests
 
 sanitize:
-	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(FUZZ_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(TEST_PACKAGES) $(FUZZ_PACKAGES)
 	cmake --preset sanitizers
 	cmake --build --preset sanitizers --parallel $(JOBS) --target $(SANITIZED)
 	VERITRACK_TEST_EFFORT=$(SANITIZED_EFFORT) ctest --preset sanitizers --parallel $(JOBS) \
 	  --tests-regex '^($(subst $() $(),|,$(strip $(SANITIZED))))$$'
 
 fuzz:
-	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(FUZZ_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(TEST_PACKAGES) $(FUZZ_PACKAGES)
 	cmake --preset sanitizers
 	cmake --build --preset sanitizers --parallel $(JOBS) --target fuzzers
 	scripts/fuzz build/sanitizers $(FUZZ_SECONDS) $(FUZZ_SEED)
@@ -131,21 +135,21 @@ MUTATION_ROOMS  ?= analysis checker
 MUTATION_PART   ?= 0/1
 
 mutation:
-	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) python3
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(TEST_PACKAGES) python3
 	cmake --preset mutation
 	cmake --build --preset mutation --parallel $(JOBS)
 	VERITRACK_TEST_EFFORT=$(MUTATION_EFFORT) scripts/mutation build/mutation --jobs $(JOBS) --rooms $(MUTATION_ROOMS) \
 	  --part $(MUTATION_PART) --known tests/known-mutants.txt
 
 bench:
-	@scripts/install-packages $(BUILD_PACKAGES) $(BENCH_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(BENCH_PACKAGES)
 	cmake --preset release -DVERITRACK_BUILD_BENCH=ON -DVERITRACK_TRACKERS=
 	cmake --build --preset release --parallel $(JOBS)
 	for program in build/release/bench/*_bench; do $$program; done
 
 # The package for Python as a wheel for this platform, in build/wheels (docs/python.md).
 wheel:
-	@scripts/install-packages $(BUILD_PACKAGES) $(PYTHON_PACKAGES) python3-pip python3-setuptools python3-wheel
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(PYTHON_PACKAGES) python3-pip python3-setuptools python3-wheel
 	@cmake --preset release -DVERITRACK_BUILD_PYTHON=ON -DVERITRACK_TRACKERS= >&2
 	@VERITRACK_BUILD_FOLDER="$(CURDIR)/build/release" /usr/bin/python3 -m pip wheel --quiet --no-build-isolation --no-deps \
 	  --wheel-dir build/wheels . >&2
@@ -153,9 +157,10 @@ wheel:
 
 # The programs as a Debian package, in build/release/packages. scripts/try-deb installs it into an empty Debian.
 deb:
-	@scripts/install-packages $(BUILD_PACKAGES) $(DEB_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(DEB_PACKAGES)
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF -DVERITRACK_TRACKERS= >&2
-	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce veritrack_manual_files >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack-reproduce \
+	  veritrack-lift veritrack_manual_files >&2
 	@cpack --config build/release/CPackConfig.cmake >&2
 	@ls build/release/packages/*.deb
 

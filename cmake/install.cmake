@@ -5,6 +5,9 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS veritrack veritrack-reproduce RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
+if(TARGET veritrack-lift)
+  install(TARGETS veritrack-lift RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
+endif()
 
 # ---- what the program says of itself
 set(veritrack_manual "${PROJECT_BINARY_DIR}/manual")

@@ -80,6 +80,9 @@ Repeats operator+(const Repeats& x, const Repeats& y) {
 }
 
 Repeats operator*(const Repeats& x, const Repeats& y) {
+  if (x.whole_ == 0 || y.whole_ == 0) {
+    return Repeats(zero);  // a limit that is shown elsewhere adds 0 times its value
+  }
   Repeats result(0.5);
   const long factor = std::max(1L, x.whole_.value_or(y.whole_.value_or(1)));
   result.multiples_ = Repeats::multiples(x, y);

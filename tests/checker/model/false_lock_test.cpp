@@ -50,6 +50,8 @@ TEST_CASE("a detector that does not see half a turn has a false lock at half the
   CHECK(is(degree("w + k*sin(theta + theta + theta)"), 3.0));
   CHECK(is(degree("w + k*tan(theta)"), 3.0));  // of a sum with a denominator, and tan(theta) has 2
   CHECK(is(degree("w*1 - k*w*theta/3"), 2.0));
+  // A limit that has to be shown is not a part of the step.
+  CHECK(is(degree("w + k*y1*sin(theta + w)\nlimit = stays_within(sin(3*theta), -2, 2)"), 1.0));
   // Two states whose signs change together.
   CHECK(is(degree("w + k*w*theta"), 2.0));
   CHECK(degree("w + k*atan(sin(theta)/cos(theta))") >= 2.0);

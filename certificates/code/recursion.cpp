@@ -1,0 +1,612 @@
+#include "certificates/code/recursion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "certificates/code/turns.hpp"
+
+namespace veritrack::certificates::code {
+
+namespace {
+
+using trackers::code::Instruction;
+using trackers::code::Listing;
+using trackers::code::Operation;
+using trackers::code::Predicate;
+
+/// A formula, and how tightly its outermost operation binds.
+struct Formula {
+  enum class Binds { sum, product, atom };
+  std::string text;
+  Binds binds = Binds::atom;
+
+  [[nodiscard]] std::string as_term() const { return text; }
+  [[nodiscard]] std::string as_factor() const { return binds == Binds::sum ? "(" + text + ")" : text; }
+  [[nodiscard]] std::string as_atom() const { return binds == Binds::atom ? text : "(" + text + ")"; }
+};
+
+/// The decimal that is exactly the number.
+Formula exact_decimal(double number) {
+  std::string text = fmt::format("{:.17g}", std::fabs(number));
+  if (std::strtod(text.c_str(), nullptr) != std::fabs(number) || number != std::round(number)) {
+    text = fmt::format("{:.800g}", std::fabs(number));
+  }
+  return number < 0.0 ? Formula{"-" + text, Formula::Binds::sum} : Formula{text};
+}
+
+struct Named {
+  Operation operation;
+  std::string_view name;
+};
+constexpr std::array kFunctions{
+    Named{Operation::sqrt, "sqrt"},  Named{Operation::fabs, "abs"},  Named{Operation::sin, "sin"},
+    Named{Operation::cos, "cos"},    Named{Operation::tan, "tan"},   Named{Operation::asin, "asin"},
+    Named{Operation::acos, "acos"},  Named{Operation::atan, "atan"}, Named{Operation::exp, "exp"},
+    Named{Operation::log, "log"},    Named{Operation::tanh, "tanh"}, Named{Operation::atan2, "atan2"},
+    Named{Operation::hypot, "hypot"}};
+
+/// A value between limits: the register that is limited, and the limits that are there.
+struct Limited {
+  int value = -1;
+  std::optional<double> low, high;
+};
+
+class Writer {
+ public:
+  explicit Writer(const Listing& listing) : listing_(&listing), turns_(listing) {
+    const auto take = [&](int value, const std::string& name) {
+      std::string free = name;
+      while (kTaken.contains(free) || !taken_.insert(free).second) {
+        free += '_';
+      }
+      names_[value] = free;
+      return free;
+    };
+    for (std::size_t i = 0; i < listing.samples.size(); ++i) {
+      result_.samples.push_back(take(listing.samples[i], listing.sample_names[i]));
+    }
+    for (const trackers::code::State& state : listing.states) {
+      result_.states.push_back(take(state.input, state.name));
+      is_angle_[state.input] = turns_.is_wrapped(state.next);
+    }
+  }
+
+  [[nodiscard]] Recursion written() {
+    find_ranges();
+    for (const bool counts : {true, false}) {
+      counts_ = counts;
+      formulas_.clear();
+      lines_.clear();
+      limits_.clear();
+      given_.clear();
+      write();
+    }
+    for (const std::string& line : lines_) {
+      result_.step += line + "\n";
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] const Instruction& at(int value) const {
+    return listing_->instructions[static_cast<std::size_t>(value)];
+  }
+  [[noreturn]] void refuse(int value, const std::string& text) const {
+    throw NoRecursion(text, at(value).place);
+  }
+
+  void write() {
+    result_.angles.clear();
+    result_.start.clear();
+    std::vector<std::string> next;
+    for (std::size_t i = 0; i < listing_->states.size(); ++i) {
+      const trackers::code::State& state = listing_->states[i];
+      const trackers::code::Format format = at(state.input).format;
+      if (!format.is_float) {
+        refuse(state.next,
+               fmt::format("{} is an integer that the frequency depends on; allowed: numbers", state.name));
+      }
+      const bool is_angle = is_angle_.at(state.input);
+      const Formula value = is_angle ? angle(state.next) : formula(state.next);
+      next.push_back(fmt::format("{}' = {}", result_.states[i], value.text));
+      if (is_angle) {
+        result_.angles.push_back(result_.states[i]);
+      }
+      result_.start.push_back(exact_decimal(trackers::code::number_of(format, state.start_bits)).text);
+    }
+    for (const trackers::code::Obligation& obligation : listing_->obligations) {
+      write_obligation(obligation);
+    }
+    lines_.insert(lines_.end(), next.begin(), next.end());
+    result_.frequency = inlined(listing_->frequency).text;
+  }
+
+  /// A formula of its own, without the lines of the step.
+  [[nodiscard]] Formula inlined(int value) {
+    inlines_ = true;
+    formulas_.clear();
+    const Formula result = formula(value);
+    inlines_ = false;
+    formulas_.clear();
+    return result;
+  }
+
+  // ---- angles
+
+  /// The ranges that the program keeps its angles in, for steps of up to half a turn.
+  void find_ranges() {
+    for (const trackers::code::State& state : listing_->states) {
+      if (is_angle_.at(state.input)) {
+        const double start = trackers::code::number_of(at(state.input).format, state.start_bits);
+        ranges_[state.input] = {start, start};
+      }
+    }
+    constexpr int kMostRounds = 8;
+    for (int round = 0; round < kMostRounds; ++round) {
+      bool has_grown = false;
+      for (const trackers::code::State& state : listing_->states) {
+        if (is_angle_.at(state.input)) {
+          Range& range = ranges_.at(state.input);
+          const std::optional<Range> next = angle_range(state.next);
+          if (!next) {
+            refuse(state.next,
+                   fmt::format("the new {} is not itself and a step, wrapped; allowed: e.g. theta += step; "
+                               "if (theta > PI) theta -= 2*PI",
+                               state.name));
+          }
+          const Range grown{std::min(range.low, next->low), std::max(range.high, next->high)};
+          has_grown = has_grown || !(grown == range);
+          range = grown;
+        }
+      }
+      if (!has_grown) {
+        return;
+      }
+    }
+    throw NoRecursion("an angle is not kept in a range by its wraps, for steps of up to half a turn", {});
+  }
+
+  [[nodiscard]] bool is_angular(int value) {
+    const auto known = is_angle_.find(turns_.plain(value));
+    return (known != is_angle_.end() && known->second) || turns_.is_wrapped(value);
+  }
+
+  /// What is left of a sum when one angle is taken out of it: the angle and the other terms with their signs.
+  struct Rest {
+    int angle = -1;
+    std::vector<std::pair<int, bool>> terms;  ///< and whether they are subtracted
+  };
+  [[nodiscard]] std::optional<Rest> rest_of(int value) {
+    value = turns_.plain(value);
+    if (is_angular(value)) {
+      return Rest{value, {}};
+    }
+    const Instruction& sum = at(value);
+    if (sum.operation != Operation::fadd && sum.operation != Operation::fsub) {
+      return std::nullopt;
+    }
+    const bool subtracts = sum.operation == Operation::fsub;
+    if (std::optional<Rest> rest = rest_of(sum.operands[0])) {
+      rest->terms.emplace_back(sum.operands[1], subtracts);
+      return rest;
+    }
+    std::optional<Rest> rest = subtracts ? std::nullopt : rest_of(sum.operands[1]);
+    if (rest) {
+      rest->terms.emplace_back(sum.operands[0], false);
+    }
+    return rest;
+  }
+
+  /// The range of a value that is made of angles and arc tangents alone.
+  [[nodiscard]] std::optional<Range> range_of(int value) {
+    value = turns_.plain(value);
+    const Instruction& instruction = at(value);
+    constexpr double kHalfTurn = std::numbers::pi + kWrapSlack;
+    if (instruction.operation == Operation::atan2) {
+      return Range{-kHalfTurn, kHalfTurn};
+    }
+    if (const auto known = ranges_.find(value); known != ranges_.end()) {
+      return known->second;
+    }
+    if (turns_.is_wrapped(value)) {
+      return angle_range(value);
+    }
+    if (instruction.operation == Operation::fadd || instruction.operation == Operation::fsub) {
+      const std::optional<Range> a = range_of(instruction.operands[0]);
+      const std::optional<Range> b = range_of(instruction.operands[1]);
+      if (a && b) {
+        return instruction.operation == Operation::fadd ? Range{a->low + b->low, a->high + b->high}
+                                                        : Range{a->low - b->high, a->high - b->low};
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The range of a wrapped value, or of a state that is an angle.
+  [[nodiscard]] std::optional<Range> angle_range(int value) {
+    value = turns_.plain(value);
+    if (const auto known = ranges_.find(value); known != ranges_.end()) {
+      return known->second;
+    }
+    if (!turns_.is_wrapped(value)) {
+      return std::nullopt;
+    }
+    const int base = turns_.without_turns(value);
+    std::optional<Range> of_base = range_of(base);
+    if (!of_base) {
+      const std::optional<Rest> rest = rest_of(base);
+      const std::optional<Range> before = rest ? angle_range(rest->angle) : std::nullopt;
+      if (!before) {
+        return std::nullopt;
+      }
+      of_base =
+          Range{before->low - std::numbers::pi - kWrapSlack, before->high + std::numbers::pi + kWrapSlack};
+      steps_.insert(base);
+    }
+    bases_[base] = *of_base;
+    return turns_.range(value, base, *of_base);
+  }
+
+  /// A value modulo whole turns.
+  [[nodiscard]] Formula angle(int value) {
+    if (!turns_.is_wrapped(value)) {
+      return formula(value);
+    }
+    const int base = turns_.without_turns(value);
+    limit_step(base);
+    return formula(base);
+  }
+
+  /// The range of a wrapped value rests on steps of less than half a turn.
+  void limit_step(int base) {
+    const std::optional<Rest> rest = steps_.contains(base) ? rest_of(base) : std::nullopt;
+    if (!rest || rest->terms.empty() || !limits_.insert(base).second) {
+      return;
+    }
+    std::string text;
+    for (const auto& [term, subtracts] : rest->terms) {
+      const Formula part = formula(term);
+      text += text.empty() ? (subtracts ? "-" + part.as_factor() : part.as_term())
+                           : (subtracts ? " - " + part.as_factor() : " + " + part.as_term());
+    }
+    lines_.push_back(fmt::format("{} = stays_within({}, -pi, pi)", free_name("turn"), text));
+    if (const std::optional<Rest> inner = rest; turns_.is_wrapped(inner->angle)) {
+      limit_step(turns_.without_turns(inner->angle));
+    }
+  }
+
+  /// A wrapped value that is used as a number: between minus and plus half a turn.
+  [[nodiscard]] Formula wrapped(int value) {
+    const std::optional<Range> range = angle_range(value);
+    constexpr double kHalfTurn = std::numbers::pi + 10.0 * kWrapSlack;
+    if (!range || range->low < -kHalfTurn || range->high > kHalfTurn) {
+      refuse(value,
+             "a difference of angles that is not certainly wrapped to minus half a turn to half a turn; "
+             "allowed: "
+             "e.g. if (e > PI) e -= 2*PI; else if (e < -PI) e += 2*PI, of two angles that are");
+    }
+    const int base = turns_.without_turns(value);
+    limit_step(base);
+    const Instruction& difference = at(base);
+    const int arc = difference.operation == Operation::fsub ? turns_.plain(difference.operands[0]) : -1;
+    if (arc < 0 || at(arc).operation != Operation::atan2) {
+      return {fmt::format("wrap({})", formula(base).text)};
+    }
+    const std::string y = formula(at(arc).operands[0]).as_factor();
+    const std::string x = formula(at(arc).operands[1]).as_factor();
+    const std::string z = angle(difference.operands[1]).text;
+    return {fmt::format("atan2({0}*cos({2}) - {1}*sin({2}), {1}*cos({2}) + {0}*sin({2}))", y, x, z)};
+  }
+
+  // ---- formulas
+
+  [[nodiscard]] std::string free_name(const std::string& begin) {
+    for (int i = 1;; ++i) {
+      const std::string name = fmt::format("{}{}", begin, i);
+      if (!taken_.contains(name) && given_.insert(name).second) {
+        return name;
+      }
+    }
+  }
+
+  /// The formula of a register: a name where it has a line of its own.
+  [[nodiscard]] Formula formula(int value) {
+    value = turns_.plain(value);
+    if (const auto name = names_.find(value); name != names_.end()) {
+      return {name->second};
+    }
+    if (!inlines_ && counts_) {
+      ++uses_[value];
+    }
+    if (const auto known = formulas_.find(value); known != formulas_.end()) {
+      return known->second;
+    }
+    Formula made = operation(value);
+    constexpr std::size_t kLongest = 100;
+    const bool is_constant = at(value).operation == Operation::constant;
+    if (!inlines_ && !counts_ && !is_constant && (uses_[value] > 1 || made.text.size() > kLongest)) {
+      const std::string name = free_name("r");
+      lines_.push_back(fmt::format("{} = {}", name, made.text));
+      made = {name};
+    }
+    formulas_[value] = made;
+    return made;
+  }
+
+  [[nodiscard]] Formula operation(int value) {
+    const Instruction& instruction = at(value);
+    const auto operand = [&](std::size_t i) { return formula(instruction.operands[i]); };
+    using Binds = Formula::Binds;
+    switch (instruction.operation) {
+      case Operation::constant: {
+        const double number = trackers::code::number_of(instruction.format, instruction.bits);
+        if (!instruction.format.is_float || !std::isfinite(number)) {
+          refuse(value, "a constant that is no number");
+        }
+        return exact_decimal(number);
+      }
+      case Operation::fadd:
+        return {operand(0).as_term() + " + " + operand(1).as_factor(), Binds::sum};
+      case Operation::fsub:
+        return {operand(0).as_term() + " - " + operand(1).as_factor(), Binds::sum};
+      case Operation::fmul:
+        if (instruction.operands[0] == instruction.operands[1]) {
+          return {operand(0).as_atom() + "^2", Binds::product};
+        }
+        return {operand(0).as_factor() + "*" + operand(1).as_factor(), Binds::product};
+      case Operation::fdiv:
+        return {operand(0).as_factor() + "/" + operand(1).as_atom(), Binds::product};
+      case Operation::fneg:
+        return {"-" + operand(0).as_factor(), Binds::sum};
+      case Operation::fma:
+        return {operand(0).as_factor() + "*" + operand(1).as_factor() + " + " + operand(2).as_factor(),
+                Binds::sum};
+      case Operation::select:
+      case Operation::fmin:
+      case Operation::fmax:
+        return choice(value);
+      default:
+        return function(value);
+    }
+  }
+
+  [[nodiscard]] Formula function(int value) {
+    const Instruction& instruction = at(value);
+    const auto* found = std::find_if(kFunctions.begin(), kFunctions.end(), [&](const Named& entry) {
+      return entry.operation == instruction.operation;
+    });
+    if (found == kFunctions.end()) {
+      const auto* name = trackers::code::name_of(instruction.operation);
+      refuse(value, fmt::format("{} has no rule yet that makes it a formula of real numbers",
+                                name == nullptr ? "an input that is no number" : name->name));
+    }
+    const bool is_periodic =
+        instruction.operation == Operation::sin || instruction.operation == Operation::cos;
+    std::string operands =
+        is_periodic ? angle(instruction.operands[0]).text : formula(instruction.operands[0]).text;
+    if (instruction.operands[1] >= 0) {
+      operands += ", " + formula(instruction.operands[1]).text;
+    }
+    return {fmt::format("{}({})", found->name, operands)};
+  }
+
+  // ---- choices
+
+  [[nodiscard]] std::optional<double> number(int value) const {
+    const Instruction& instruction = at(turns_.plain(value));
+    if (instruction.operation != Operation::constant || !instruction.format.is_float) {
+      return std::nullopt;
+    }
+    return trackers::code::number_of(instruction.format, instruction.bits);
+  }
+
+  /// A comparison as "first is below second", and whether it is the other way round.
+  struct Less {
+    int first = -1, second = -1;
+    bool negated = false;
+  };
+  [[nodiscard]] std::optional<Less> less(int condition) const {
+    const Instruction& instruction = at(condition);
+    if (instruction.operation != Operation::fcmp) {
+      return std::nullopt;
+    }
+    const auto& [a, b, unused] = instruction.operands;
+    switch (instruction.predicate) {
+      case Predicate::olt:
+      case Predicate::ult:
+        return Less{a, b, false};
+      case Predicate::ogt:
+      case Predicate::ugt:
+        return Less{b, a, false};
+      case Predicate::oge:
+      case Predicate::uge:
+        return Less{a, b, true};
+      case Predicate::ole:
+      case Predicate::ule:
+        return Less{b, a, true};
+      default:
+        return std::nullopt;
+    }
+  }
+
+  [[nodiscard]] std::optional<Limited> with_limit(int inner, double limit, bool is_low) const {
+    Limited result = limited(inner);
+    std::optional<double>& same = is_low ? result.low : result.high;
+    const std::optional<double>& other = is_low ? result.high : result.low;
+    if (same || (other && (is_low ? limit >= *other : limit <= *other))) {
+      return std::nullopt;
+    }
+    same = limit;
+    return result;
+  }
+
+  /// A value with the limits that it is kept between.
+  [[nodiscard]] Limited limited(int value) const {
+    value = turns_.plain(value);
+    const Instruction& instruction = at(value);
+    const Limited itself{value, {}, {}};
+    const auto& [a, b, c] = instruction.operands;
+    if (instruction.operation == Operation::fmin || instruction.operation == Operation::fmax) {
+      const std::optional<double> limit = number(a) ? number(a) : number(b);
+      const int inner = number(a) ? b : a;
+      return limit ? with_limit(inner, *limit, instruction.operation == Operation::fmax).value_or(itself)
+                   : itself;
+    }
+    const std::optional<Less> comparison =
+        instruction.operation == Operation::select ? less(a) : std::nullopt;
+    if (!comparison) {
+      return itself;
+    }
+    const int if_less = comparison->negated ? c : b;
+    const int otherwise = comparison->negated ? b : c;
+    // x < limit ? limit : x is at least the limit, x < limit ? x : limit at most, and likewise for limit < x.
+    const bool limit_is_second = number(comparison->second).has_value();
+    const std::optional<double> limit =
+        limit_is_second ? number(comparison->second) : number(comparison->first);
+    const int compared = turns_.plain(limit_is_second ? comparison->first : comparison->second);
+    for (const bool takes_limit_if_less : {true, false}) {
+      const std::optional<double> taken = number(takes_limit_if_less ? if_less : otherwise);
+      const int inner = takes_limit_if_less ? otherwise : if_less;
+      if (limit && taken && *taken == *limit && limited(inner).value == compared) {
+        const bool is_low = limit_is_second == takes_limit_if_less;
+        return with_limit(inner, *limit, is_low).value_or(itself);
+      }
+    }
+    return itself;
+  }
+
+  [[nodiscard]] Formula choice(int value) {
+    if (turns_.is_wrapped(value)) {
+      return wrapped(value);
+    }
+    const Limited limits = limited(value);
+    if (limits.low && limits.high) {
+      return {fmt::format("clamp({}, {}, {})", formula(limits.value).text, exact_decimal(*limits.low).text,
+                          exact_decimal(*limits.high).text)};
+    }
+    if (limits.low || limits.high) {
+      return {fmt::format("{}({}, {})", limits.low ? "max" : "min", formula(limits.value).text,
+                          exact_decimal(limits.low ? *limits.low : *limits.high).text)};
+    }
+    const Instruction& instruction = at(value);
+    if (instruction.operation != Operation::select) {
+      return {fmt::format("{}({}, {})", instruction.operation == Operation::fmin ? "min" : "max",
+                          formula(instruction.operands[0]).text, formula(instruction.operands[1]).text)};
+    }
+    return chosen(instruction.operands[0], instruction.operands[1], instruction.operands[2]);
+  }
+
+  [[nodiscard]] Formula chosen(int condition, int yes, int no) {
+    return chosen_of(
+        condition, [&] { return formula(yes); }, [&] { return formula(no); });
+  }
+
+  [[nodiscard]] Formula chosen_of(int condition, const std::function<Formula()>& yes,
+                                  const std::function<Formula()>& no) {
+    const Instruction& instruction = at(condition);
+    const int a = instruction.operands[0];
+    const int b = instruction.operands[1];
+    if (instruction.operation == Operation::bit_and) {
+      return chosen_of(
+          a, [&] { return chosen_of(b, yes, no); }, no);
+    }
+    if (instruction.operation == Operation::bit_or) {
+      return chosen_of(a, yes, [&] { return chosen_of(b, yes, no); });
+    }
+    if (instruction.operation == Operation::bit_xor && at(b).operation == Operation::constant &&
+        at(b).bits != 0) {
+      return chosen_of(a, no, yes);
+    }
+    if (instruction.operation == Operation::fcmp && instruction.predicate == Predicate::uno) {
+      return no();  // a certified value is a number
+    }
+    if (instruction.operation == Operation::fcmp && instruction.predicate == Predicate::ord) {
+      return yes();
+    }
+    const std::optional<Less> comparison = less(condition);
+    if (!comparison) {
+      refuse(condition,
+             "a choice by an integer, or by whether two numbers are equal, which no rule makes a formula of "
+             "real numbers");
+    }
+    const std::string first = formula(comparison->first).text;
+    const std::string second = formula(comparison->second).text;
+    const Formula if_less = comparison->negated ? no() : yes();
+    const Formula otherwise = comparison->negated ? yes() : no();
+    if (if_less.text == otherwise.text) {
+      return if_less;
+    }
+    if (second == "0" && otherwise.text == first && if_less.text == "-" + first) {
+      return {fmt::format("abs({})", first)};
+    }
+    if (if_less.text == first && otherwise.text == second) {
+      return {fmt::format("min({}, {})", first, second)};
+    }
+    if (if_less.text == second && otherwise.text == first) {
+      return {fmt::format("max({}, {})", first, second)};
+    }
+    return {fmt::format("if({} < {}, {}, {})", first, second, if_less.text, otherwise.text)};
+  }
+
+  // ---- obligations
+
+  void write_obligation(const trackers::code::Obligation& obligation) {
+    const int condition = obligation.must_be_zero;
+    for (const auto& [base, range] : bases_) {
+      if (turns_.is_never(condition, base, range)) {
+        limit_step(base);
+        return;
+      }
+    }
+    const std::optional<Less> comparison = less(condition);
+    if (!comparison) {
+      throw NoRecursion(fmt::format("nothing shows that {}", obligation.why), obligation.place);
+    }
+    const std::string difference =
+        fmt::format("{} - {}", formula(comparison->second).text, formula(comparison->first).as_factor());
+    constexpr std::string_view kFar = "1e30";
+    lines_.push_back(comparison->negated
+                         ? fmt::format("{} = stays_within({}, 0, {})", free_name("must"), difference, kFar)
+                         : fmt::format("{} = stays_within({}, -{}, 0)", free_name("must"), difference, kFar));
+  }
+
+  inline static const std::set<std::string> kTaken{
+      "A",    "phi",  "omega", "pi",    "sqrt", "exp", "log",  "sin",   "cos",   "tan",
+      "asin", "acos", "atan",  "atan2", "min",  "max", "abs",  "sign",  "clamp", "if",
+      "else", "then", "elif",  "and",   "or",   "not", "wrap", "hypot", "tanh",  "stays_within"};
+
+  const Listing* listing_;
+  Turns turns_;
+  Recursion result_;
+  std::map<int, std::string> names_;
+  std::set<std::string> taken_;   ///< names of samples and states
+  std::set<std::string> given_;   ///< names of lines
+  std::map<int, bool> is_angle_;  ///< of the inputs
+  std::map<int, Range> ranges_;   ///< of angles
+  std::map<int, Range> bases_;    ///< of what is wrapped
+  std::set<int> steps_;           ///< bases that are an angle and a step
+  std::set<int> limits_;          ///< of these, those whose step is limited by a line
+  std::map<int, Formula> formulas_;
+  std::map<int, int> uses_;
+  std::vector<std::string> lines_;
+  bool counts_ = false;   ///< the first time through, which counts uses
+  bool inlines_ = false;  ///< no lines
+};
+
+}  // namespace
+
+Recursion recursion_of(const Listing& listing) {
+  return Writer(listing).written();
+}
+
+}  // namespace veritrack::certificates::code

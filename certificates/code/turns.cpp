@@ -1,0 +1,226 @@
+#include "certificates/code/turns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace veritrack::certificates::code {
+
+namespace {
+
+using trackers::code::Instruction;
+using trackers::code::Operation;
+using trackers::code::Predicate;
+
+constexpr std::size_t kMostPieces = 256;
+
+bool is_whole_turns(double number) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double turns = std::round(number / kTurn);
+  return turns != 0.0 && std::fabs(turns) <= 4.0 && std::fabs(number - turns * kTurn) <= kWrapSlack;
+}
+
+bool is_less(Predicate predicate) {
+  return predicate == Predicate::olt || predicate == Predicate::ole || predicate == Predicate::ult ||
+         predicate == Predicate::ule;
+}
+bool is_greater(Predicate predicate) {
+  return predicate == Predicate::ogt || predicate == Predicate::oge || predicate == Predicate::ugt ||
+         predicate == Predicate::uge;
+}
+
+}  // namespace
+
+int Turns::plain(int value) const {
+  while (true) {
+    const Instruction& instruction = at(value);
+    if (instruction.operation == Operation::fpext || instruction.operation == Operation::fptrunc) {
+      value = instruction.operands[0];
+      continue;
+    }
+    const bool is_choice = instruction.operation == Operation::select && instruction.format.is_float;
+    const std::optional<bool> is_number =
+        is_choice ? tests_for_numbers(instruction.operands[0]) : std::nullopt;
+    if (!is_number) {
+      return value;
+    }
+    value = instruction.operands[*is_number ? 1 : 2];
+  }
+}
+
+/// What a condition is for numbers, where it asks only whether a value is one.
+std::optional<bool> Turns::tests_for_numbers(int condition) const {
+  const Instruction& instruction = at(condition);
+  if (instruction.operation == Operation::fcmp &&
+      (instruction.predicate == Predicate::uno || instruction.predicate == Predicate::ord)) {
+    return instruction.predicate == Predicate::ord;
+  }
+  if (instruction.operation == Operation::bit_xor &&
+      at(instruction.operands[1]).operation == Operation::constant) {
+    const std::optional<bool> inner = tests_for_numbers(instruction.operands[0]);
+    return inner ? std::optional(*inner != (at(instruction.operands[1]).bits != 0)) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> Turns::number(int value) const {
+  const Instruction& instruction = at(plain(value));
+  if (instruction.operation != Operation::constant || !instruction.format.is_float) {
+    return std::nullopt;
+  }
+  return trackers::code::number_of(instruction.format, instruction.bits);
+}
+
+int Turns::without_turns(int value) {
+  value = plain(value);
+  const auto known = without_turns_.find(value);
+  if (known != without_turns_.end()) {
+    return known->second;
+  }
+  const Instruction& instruction = at(value);
+  int result = value;
+  if (instruction.operation == Operation::select && instruction.format.is_float) {
+    const int yes = without_turns(instruction.operands[1]);
+    const int no = without_turns(instruction.operands[2]);
+    result = yes == no ? yes : value;
+  } else if (instruction.operation == Operation::fadd || instruction.operation == Operation::fsub) {
+    const std::optional<double> turns = number(instruction.operands[1]);
+    if (turns && is_whole_turns(*turns)) {
+      result = without_turns(instruction.operands[0]);
+    }
+  }
+  without_turns_[value] = result;
+  return result;
+}
+
+bool Turns::is_wrapped(int value) {
+  const int behind = plain(value);
+  return at(behind).operation == Operation::select && without_turns(behind) != behind;
+}
+
+std::optional<Range> Turns::range(int value, int base, Range of_base) const {
+  const auto parts = pieces(value, base, Part{of_base, {}});
+  if (!parts || parts->empty()) {
+    return std::nullopt;
+  }
+  Range whole{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const auto& [part, shift] : *parts) {
+    whole.low = std::min(whole.low, part.of_base.low + shift);
+    whole.high = std::max(whole.high, part.of_base.high + shift);
+  }
+  return whole;
+}
+
+std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, const Part& part) const {
+  value = plain(value);
+  if (value == base) {
+    return std::vector{Piece{part, 0.0}};
+  }
+  const Instruction& instruction = at(value);
+  if (instruction.operation == Operation::fadd || instruction.operation == Operation::fsub) {
+    const std::optional<double> moved = number(instruction.operands[1]);
+    auto parts = moved ? pieces(instruction.operands[0], base, part) : std::nullopt;
+    if (parts) {
+      for (Piece& piece : *parts) {
+        piece.shift += instruction.operation == Operation::fadd ? *moved : -*moved;
+      }
+    }
+    return parts;
+  }
+  const auto truths =
+      instruction.operation == Operation::select ? truth(instruction.operands[0], base, part) : std::nullopt;
+  if (!truths) {
+    return std::nullopt;
+  }
+  std::vector<Piece> all;
+  for (const auto& [where, holds] : *truths) {
+    const auto branch = pieces(instruction.operands[holds ? 1 : 2], base, where);
+    if (!branch || all.size() > kMostPieces) {
+      return std::nullopt;
+    }
+    all.insert(all.end(), branch->begin(), branch->end());
+  }
+  return all;
+}
+
+std::optional<std::vector<Turns::Truth>> Turns::truth(int condition, int base, const Part& part) const {
+  const Instruction& instruction = at(condition);
+  if (const std::optional<bool> is_number = tests_for_numbers(condition)) {
+    return std::vector{Truth{part, *is_number}};
+  }
+  if (instruction.operation == Operation::constant) {
+    return std::vector{Truth{part, instruction.bits != 0}};
+  }
+  if (instruction.operation == Operation::bit_xor &&
+      at(instruction.operands[1]).operation == Operation::constant) {
+    auto truths = truth(instruction.operands[0], base, part);
+    if (truths && at(instruction.operands[1]).bits != 0) {
+      for (Truth& each : *truths) {
+        each.holds = !each.holds;
+      }
+    }
+    return truths;
+  }
+  if (instruction.operation != Operation::bit_and && instruction.operation != Operation::bit_or) {
+    return truth_of_comparison(condition, base, part);
+  }
+  const auto first = truth(instruction.operands[0], base, part);
+  if (!first) {
+    return std::nullopt;
+  }
+  std::vector<Truth> all;
+  for (const Truth& each : *first) {
+    if (each.holds != (instruction.operation == Operation::bit_and)) {
+      all.push_back(each);  // the first has decided
+      continue;
+    }
+    const auto second = truth(instruction.operands[1], base, each.part);
+    if (!second || all.size() > kMostPieces) {
+      return std::nullopt;
+    }
+    all.insert(all.end(), second->begin(), second->end());
+  }
+  return all;
+}
+
+std::optional<std::vector<Turns::Truth>> Turns::truth_of_comparison(int condition, int base,
+                                                                    const Part& part) const {
+  const Instruction& instruction = at(condition);
+  if (instruction.operation != Operation::fcmp ||
+      !(is_less(instruction.predicate) || is_greater(instruction.predicate))) {
+    return std::nullopt;
+  }
+  if (const auto known = part.decided.find(condition); known != part.decided.end()) {
+    return std::vector{Truth{part, known->second}};
+  }
+  const std::optional<double> limit = number(instruction.operands[1]);
+  const auto parts = limit ? pieces(instruction.operands[0], base, part) : std::nullopt;
+  if (!parts) {
+    return std::nullopt;
+  }
+  std::vector<Truth> all;
+  for (const auto& [where, shift] : *parts) {
+    // Sums in single precision may be to the other side of a limit next to it.
+    const double at_base = *limit - shift;
+    const auto add = [&](double low, double high, bool holds) {
+      const Range cut{std::max(where.of_base.low, low), std::min(where.of_base.high, high)};
+      if (cut.low <= cut.high) {
+        all.push_back({{cut, where.decided}, holds});
+        all.back().part.decided[condition] = holds;
+      }
+    };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    add(-kInfinity, at_base + kWrapSlack / 16, is_less(instruction.predicate));
+    add(at_base - kWrapSlack / 16, kInfinity, is_greater(instruction.predicate));
+  }
+  return all;
+}
+
+bool Turns::is_never(int condition, int base, Range of_base) const {
+  const auto truths = truth(condition, base, Part{of_base, {}});
+  return truths && !truths->empty() &&
+         std::none_of(truths->begin(), truths->end(), [](const Truth& each) { return each.holds; });
+}
+
+}  // namespace veritrack::certificates::code

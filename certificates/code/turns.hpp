@@ -1,0 +1,72 @@
+// Angles that a program wraps: values that differ by whole turns, and the ranges that the wraps keep them in.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "trackers/code/listing.hpp"
+
+namespace veritrack::certificates::code {
+
+/// A range of numbers, both ends included.
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// The listing, with conversions of format looked through.
+class Turns {
+ public:
+  explicit Turns(const trackers::code::Listing& listing) : listing_(&listing) {}
+
+  /// The register behind conversions of format, and behind what is done for values that are no numbers: a
+  /// certified value is one.
+  [[nodiscard]] int plain(int value) const;
+  /// The register that the value differs from by whole turns only: all branches of its selects lead there.
+  /// The value itself where there is none.
+  [[nodiscard]] int without_turns(int value);
+  /// Whether the value is wrapped: a select of values that differ by turns.
+  [[nodiscard]] bool is_wrapped(int value);
+  /// The range of a wrapped value, or of one that a condition compares, where `base` has this range; nothing
+  /// where the value is made of anything else.
+  [[nodiscard]] std::optional<Range> range(int value, int base, Range of_base) const;
+  /// Whether a condition certainly does not hold where `base` has this range.
+  [[nodiscard]] bool is_never(int condition, int base, Range of_base) const;
+
+ private:
+  [[nodiscard]] const trackers::code::Instruction& at(int value) const {
+    return listing_->instructions[static_cast<std::size_t>(value)];
+  }
+  [[nodiscard]] std::optional<double> number(int value) const;
+  [[nodiscard]] std::optional<bool> tests_for_numbers(int condition) const;
+  /// A part of the base's range, and the comparisons that are decided there: next to its limit, a comparison
+  /// may be true or false, but it is the same one wherever it is asked for.
+  struct Part {
+    Range of_base;
+    std::map<int, bool> decided;
+  };
+  /// There, the value is the base and a constant.
+  struct Piece {
+    Part part;
+    double shift = 0.0;
+  };
+  /// There, a condition holds, or does not.
+  struct Truth {
+    Part part;
+    bool holds = false;
+  };
+  [[nodiscard]] std::optional<std::vector<Piece>> pieces(int value, int base, const Part& part) const;
+  [[nodiscard]] std::optional<std::vector<Truth>> truth(int condition, int base, const Part& part) const;
+  [[nodiscard]] std::optional<std::vector<Truth>> truth_of_comparison(int condition, int base,
+                                                                      const Part& part) const;
+
+  const trackers::code::Listing* listing_;
+  std::map<int, int> without_turns_;
+};
+
+/// Slack of a wrap: constants of single precision for turns and half turns, and the rounding of sums.
+inline constexpr double kWrapSlack = 1e-5;
+
+}  // namespace veritrack::certificates::code

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "certificates/design/input_error.hpp"
+#include "certificates/document/program.hpp"
 #include "cli/interruption.hpp"
 #include "cli/program.hpp"
-#include "reports/program.hpp"
 
 namespace veritrack::cli {
 
@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using certificates::Verification;
 using Outcome = Verification::Outcome;
-using reports::MemoryFile;
-using reports::ProgramRun;
+using certificates::MemoryFile;
+using certificates::ProgramRun;
 
 constexpr const char* kName = "veritrack-verify";
 // As checker/main.cpp has them.
@@ -90,7 +90,7 @@ Verifier::Verifier() {
   constexpr std::string_view kExpected = "veritrack-verify " VERITRACK_VERSION ", ";
   std::string found;
   try {
-    found = first_line(reports::run_program(path_.string(), {"--version"}, "").output);
+    found = first_line(certificates::run_program(path_.string(), {"--version"}, "").output);
   } catch (const std::system_error&) {
     throw NoVerifier(
         "veritrack-verify is not beside veritrack; `ninja -C build/release veritrack-verify` builds it");
@@ -117,7 +117,7 @@ Verification Verifier::operator()(const reports::TextsToVerify& texts) const {
     arguments.push_back(hand_over(name, text));
   }
   const Interruption interruption;  // Ctrl-C ends the checker, and what was found is written
-  ProgramRun run = reports::run_program(path_.string(), arguments, "", handed_over);
+  ProgramRun run = certificates::run_program(path_.string(), arguments, "", handed_over);
   if (run.signal != 0 && Interruption::flag()) {
     return {};
   }

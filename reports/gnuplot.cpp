@@ -5,11 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "reports/program.hpp"
+#include "certificates/document/program.hpp"
 
 namespace veritrack::reports {
 
 namespace {
+
+using certificates::ProgramRun, certificates::run_program;
 
 [[noreturn]] void fail(const std::string& what) {
   throw FigureError("figures need gnuplot: " + what);

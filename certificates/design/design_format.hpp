@@ -3,6 +3,7 @@
 #pragma once
 
 #include <any>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -76,6 +77,10 @@ struct DesignFormat {
   std::vector<BoundTable> (*bind_tables)(std::any& tables);
   /// Whether the keys go together, once all are read; null when they always do.
   std::optional<TableObjection> (*objection)(const std::any& tables) = nullptr;
+  /// Fills in what other files say, named from the folder of the design, before `objection`; null when none
+  /// does. Throws InputError.
+  std::optional<TableObjection> (*complete)(std::any& tables,
+                                            const std::filesystem::path& design_file) = nullptr;
 };
 
 /// The text to add to a list of all trackers that this build knows: how to get the others, if there are any.

@@ -243,12 +243,18 @@ Design read_from(const TomlSource& source, Place place) {
   for (const BoundTable& table : tables) {
     read_table(source, find_table(source, table.name), table, design.positions);
   }
-  if (format.objection != nullptr) {
-    if (const auto objection = format.objection(design.tables)) {
-      source.fail(objection->position ? *objection->position
-                                      : to_position(find_table(source, objection->table)->source().begin),
-                  objection->message);
+  const auto require = [&](const std::optional<TableObjection>& objection) {
+    if (objection) {
+      const toml::table* table = find_table(source, objection->table);
+      const Position begin = table == nullptr ? Position{1, 1} : to_position(table->source().begin);
+      source.fail(objection->position.value_or(begin), objection->message);
     }
+  };
+  if (format.complete != nullptr) {
+    require(format.complete(design.tables, source.file_name()));
+  }
+  if (format.objection != nullptr) {
+    require(format.objection(design.tables));
   }
   return design;
 }

@@ -30,6 +30,8 @@ class TomlSource {
   TomlSource& operator=(TomlSource&&) = delete;
   ~TomlSource() = default;
 
+  /// As it was given, for messages.
+  [[nodiscard]] const std::string& file_name() const { return file_name_; }
   [[nodiscard]] const toml::table& root() const noexcept { return table_ != nullptr ? *table_ : root_; }
   [[nodiscard]] Origin origin() const noexcept { return origin_; }
   /// The rest of the line of `position` from there on; empty behind its end, and when there is no such line.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "certificates/code/compilation.hpp"
 #include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
@@ -37,6 +38,9 @@ struct ModelTable {
   SourceText frequency;
   std::vector<NamedText> start;
   std::optional<ModelEkfTable> ekf;  ///< in place of states and step
+  code::CodeTable code;              ///< the table [code]
+  std::optional<code::CompiledCode>
+      compiled;  ///< of [code]: it has filled in samples, states, angles, step, frequency
 };
 
 /// [assume] of a model.

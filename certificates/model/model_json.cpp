@@ -135,6 +135,22 @@ Json tube_json(const model::ProvedTube& proved) {
   return json;
 }
 
+namespace {
+
+/// The listing is what is verified; files and compiler say where it comes from.
+Json code_json(const code::CodeTable& code, const code::CompiledCode& compiled) {
+  Json files = Json::array();
+  for (const code::CodeFile& file : compiled.files) {
+    files.push_back({{"name", file.name}, {"sha256", file.sha256}});
+  }
+  return {{"files", files},
+          {"flags", texts_json(code.flags)},
+          {"compiler", compiled.compiler},
+          {"listing", compiled.listing_text}};
+}
+
+}  // namespace
+
 Json model_design_json(const Design& design) {
   const auto& [model, assume, require] = model_tables(design);
   Json amplitude = number_json(assume.amplitude[0]);
@@ -177,7 +193,11 @@ Json model_design_json(const Design& design) {
     recursion["states"] = texts_json(model.states);
     recursion["step"] = model.step.text;
   }
-  return {{"model", recursion}, {"assume", assumed}, {"require", required}};
+  Json tables{{"model", recursion}, {"assume", assumed}, {"require", required}};
+  if (model.compiled) {
+    tables["code"] = code_json(model.code, *model.compiled);
+  }
+  return tables;
 }
 
 namespace {

@@ -12,6 +12,7 @@
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/key_readers.hpp"
 #include "certificates/design/nearest_key.hpp"
+#include "certificates/model/code_keys.hpp"
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
 #include "certificates/model/model_noise_keys.hpp"
@@ -134,7 +135,7 @@ constexpr std::string_view kNames = "a list of names, e.g. ['alpha', 'beta', 'w'
 constexpr std::array kModelKeys{
     Key<Table>{"samples",
                "the name of the sample, e.g. 'y', or of the two of two channels, e.g. ['y1', 'y2']",
-               list<&Table::samples, 2>, kRequired, kOnlyEqual},
+               list<&Table::samples, 2>, kOptional, kOnlyEqual},
     Key<Table>{"parameters", "a table of numbers and formulas, e.g. { k = 1.4142, T = '1/10000' }",
                names_and_formulas<&Table::parameters>, kOptional, KeyContract{Stronger::as_it_is_used}},
     Key<Table>{"states", kNames, list<&Table::states, kMostStates>, kOptional, kOnlyEqual},
@@ -150,9 +151,9 @@ constexpr std::array kModelKeys{
                "left out) and jacobian = 'automatic' (may be left out) or a list of rows",
                extended_kalman_filter, kOptional, kContractOfEkf},
     Key<Table>{"frequency", "a formula of the states: the estimated frequency in rad/sample",
-               text<&Table::frequency, kLongestFormula>, kRequired, kOnlyEqual},
+               text<&Table::frequency, kLongestFormula>, kOptional, kOnlyEqual},
     Key<Table>{"start", "a table of formulas in A and omega, one for each state",
-               names_and_formulas<&Table::start>, kRequired, kNoContract},
+               names_and_formulas<&Table::start>, kOptional, kNoContract},
 };
 
 /// A number, or { unit = number }: true when it is in that unit.
@@ -316,7 +317,7 @@ constexpr std::array kModelRequireKeys{
 
 std::vector<BoundTable> bind_model_tables(std::any& tables) {
   auto& target = std::any_cast<ModelTables&>(tables);
-  return {bound_table("model", kModelKeys, target.model),
+  return {code_keys(target.model.code), bound_table("model", kModelKeys, target.model),
           bound_table("assume", kModelAssumeKeys, target.assume),
           bound_table("require", kModelRequireKeys, target.require)};
 }
@@ -406,11 +407,15 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   return std::nullopt;
 }
 
+std::optional<TableObjection> complete_model(std::any& tables, const std::filesystem::path& design_file) {
+  return complete_from_code(std::any_cast<ModelTables&>(tables).model, design_file);
+}
+
 }  // namespace
 
 const DesignFormat& model_format() {
   static const DesignFormat format{"model", [] { return std::any(ModelTables{}); }, bind_model_tables,
-                                   objection_to_model};
+                                   objection_to_model, complete_model};
   return format;
 }
 

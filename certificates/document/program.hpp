@@ -7,7 +7,7 @@
 
 #include "certificates/design/file_descriptor.hpp"
 
-namespace veritrack::reports {
+namespace veritrack::certificates {
 
 /// An anonymous file in memory.
 class MemoryFile {
@@ -22,7 +22,7 @@ class MemoryFile {
   [[nodiscard]] std::string text() const;
 
  private:
-  certificates::FileDescriptor file_;
+  FileDescriptor file_;
 };
 
 /// The output of a program until its end.
@@ -36,9 +36,11 @@ struct ProgramRun {
 
 /// Runs it with these arguments and, as its standard input, `input`, without a shell. It is looked for in
 /// PATH unless there is a slash in its name, it may open the files that are handed over by their path(), and
-/// it ends with this process in every case. Throws std::system_error when it cannot be started.
+/// it ends with this process in every case. With `seconds` above 0 it ends by SIGXCPU after so many of
+/// processor time. Throws std::system_error when it cannot be started.
 [[nodiscard]] ProgramRun run_program(const std::string& program, const std::vector<std::string>& arguments,
                                      std::string_view input,
-                                     const std::vector<const MemoryFile*>& handed_over = {});
+                                     const std::vector<const MemoryFile*>& handed_over = {},
+                                     unsigned seconds = 0);
 
-}  // namespace veritrack::reports
+}  // namespace veritrack::certificates

@@ -1,4 +1,4 @@
-#include "reports/program.hpp"
+#include "certificates/document/program.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-namespace veritrack::reports {
+namespace veritrack::certificates {
 
 TEST_CASE("a program reads its input and is not changed by a shell") {
   const std::string input(300000, 'x');
@@ -26,6 +26,12 @@ TEST_CASE("what a program says last: a status, a message, a signal") {
   CHECK(run_program("true", {}, "").has_succeeded());
 }
 
+TEST_CASE("a program that works for too long is ended") {
+  const ProgramRun run = run_program("/bin/sh", {"-c", "while true; do true; done"}, "", {}, 1);
+  CHECK(run.signal == SIGXCPU);
+  CHECK_FALSE(run.has_succeeded());
+}
+
 TEST_CASE("a program that is not there") {
   for (const char* name : {"no-such-program", "/no/such/program"}) {
     try {
@@ -43,4 +49,4 @@ TEST_CASE("a program sees the files in memory that it is handed, and no others")
   CHECK_FALSE(run_program("cat", {file.path()}, "").has_succeeded());
 }
 
-}  // namespace veritrack::reports
+}  // namespace veritrack::certificates

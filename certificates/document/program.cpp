@@ -1,8 +1,9 @@
-#include "reports/program.hpp"
+#include "certificates/document/program.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,11 +12,9 @@
 #include <csignal>
 #include <system_error>
 
-namespace veritrack::reports {
+namespace veritrack::certificates {
 
 namespace {
-
-using certificates::FileDescriptor;
 
 [[noreturn]] void fail_with(const std::string& what, int error = errno) {
   throw std::system_error(error, std::generic_category(), what);
@@ -24,7 +23,7 @@ using certificates::FileDescriptor;
 /// The work of the new process. Other threads may have been at work when it was made: only calls that are
 /// safe in a signal handler.
 [[noreturn]] void become(char* const* words, const std::array<int, 3>& streams, const std::vector<int>& files,
-                         pid_t parent, const FileDescriptor& failure) {
+                         pid_t parent, const FileDescriptor& failure, unsigned seconds) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() == parent) {
     for (int stream = 0; stream < 3; ++stream) {
@@ -32,6 +31,10 @@ using certificates::FileDescriptor;
     }
     for (const int file : files) {
       ::fcntl(file, F_SETFD, 0);
+    }
+    if (seconds > 0) {
+      const rlimit most{seconds, seconds + 1};
+      ::setrlimit(RLIMIT_CPU, &most);
     }
     ::execvp(words[0], words);
     const int error = errno;
@@ -73,7 +76,8 @@ std::string MemoryFile::text() const {
 }
 
 ProgramRun run_program(const std::string& program, const std::vector<std::string>& arguments,
-                       std::string_view input, const std::vector<const MemoryFile*>& handed_over) {
+                       std::string_view input, const std::vector<const MemoryFile*>& handed_over,
+                       unsigned seconds) {
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -102,7 +106,8 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
     fail_with("a process for " + program);
   }
   if (child == 0) {
-    become(pointers.data(), {in.descriptor(), out.descriptor(), errors.descriptor()}, files, parent, failure);
+    become(pointers.data(), {in.descriptor(), out.descriptor(), errors.descriptor()}, files, parent, failure,
+           seconds);
   }
   failure.close();
   int error = 0;
@@ -122,4 +127,4 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
   return run;
 }
 
-}  // namespace veritrack::reports
+}  // namespace veritrack::certificates

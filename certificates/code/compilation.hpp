@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "certificates/code/recursion.hpp"
 #include "certificates/design/design.hpp"
 #include "trackers/code/listing.hpp"
 
@@ -31,6 +32,7 @@ struct CompiledCode {
   std::string compiler;  ///< as it names itself
   std::string listing_text;
   trackers::code::Listing listing;
+  Recursion recursion;  ///< of the listing
 };
 
 /// The listing of the functions setup, step and frequency. `design_file` is where the names of files begin.

@@ -13,11 +13,14 @@
 #include <set>
 #include <utility>
 
-#include "certificates/code/turns.hpp"
+#include "analysis/model/code/listing_rounding.hpp"
+#include "analysis/model/code/turns.hpp"
 
 namespace veritrack::certificates::code {
 
 namespace {
+
+using model::code::kMostOfWrapped, model::code::kWrapSlack, model::code::Range, model::code::Turns;
 
 using trackers::code::Instruction;
 using trackers::code::Listing;
@@ -94,6 +97,8 @@ class Writer {
     for (const std::string& line : lines_) {
       result_.step += line + "\n";
     }
+    result_.ranges = ranges_;
+    result_.bases = bases_;
     return std::move(result_);
   }
 
@@ -300,12 +305,28 @@ class Writer {
     const Instruction& difference = at(base);
     const int arc = difference.operation == Operation::fsub ? turns_.plain(difference.operands[0]) : -1;
     if (arc < 0 || at(arc).operation != Operation::atan2) {
-      return {fmt::format("wrap({})", formula(base).text)};
+      return limited_wrap(value, fmt::format("wrap({})", formula(base).text));
     }
     const std::string y = formula(at(arc).operands[0]).as_factor();
     const std::string x = formula(at(arc).operands[1]).as_factor();
     const std::string z = angle(difference.operands[1]).text;
-    return {fmt::format("atan2({0}*cos({2}) - {1}*sin({2}), {1}*cos({2}) + {0}*sin({2}))", y, x, z)};
+    return limited_wrap(
+        value, fmt::format("atan2({0}*cos({2}) - {1}*sin({2}), {1}*cos({2}) + {0}*sin({2}))", y, x, z));
+  }
+
+  /// A line of its own for a wrapped value, which is to stay away from half a turn: next to it, rounding
+  /// would turn it over.
+  [[nodiscard]] Formula limited_wrap(int value, const std::string& text) {
+    if (inlines_) {
+      return {text};
+    }
+    const std::string name = free_name("r");
+    lines_.push_back(fmt::format("{} = {}", name, text));
+    if (limits_.insert(value).second) {
+      lines_.push_back(
+          fmt::format("{0} = stays_within({1}, -{2}, {2})", free_name("turn"), name, kMostOfWrapped));
+    }
+    return {name};
   }
 
   // ---- formulas
@@ -568,6 +589,7 @@ class Writer {
         return;
       }
     }
+    result_.ranges_keep_obligations = false;
     const std::optional<Less> comparison = less(condition);
     if (!comparison) {
       throw NoRecursion(fmt::format("nothing shows that {}", obligation.why), obligation.place);

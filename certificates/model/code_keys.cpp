@@ -102,7 +102,7 @@ std::optional<TableObjection> complete_from_code(ModelTable& model,
   }
   const Position position = model.code.position;
   model.compiled = code::compiled(model.code, design_file);
-  code::Recursion recursion;
+  code::Recursion& recursion = model.compiled->recursion;
   try {
     recursion = code::recursion_of(model.compiled->listing);
   } catch (const code::NoRecursion& error) {

@@ -216,6 +216,12 @@ Json gains_json(const model::GainProof& proof) {
   if (proof.gains) {
     json["horizon"] = proof.gains->samples();
     json["blocks"] = proof.gains->blocks();
+    if (proof.rounding) {
+      json["rounding"] = Json::array();
+      for (const double room : proof.rounding->room) {
+        json["rounding"].push_back(std::isfinite(room) ? Json(rigor::to_hexadecimal(room)) : Json(nullptr));
+      }
+    }
   }
   return json;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "analysis/model/code/listing_rounding.hpp"
 #include "analysis/model/question/proof_choice.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -130,9 +131,32 @@ const ModelSets& model_sets(const Certificate& certificate) {
 
 namespace {
 
+/// What rounding adds to a step of the program of [code].
+model::RoundingOfStep rounding_of(const code::CompiledCode& code) {
+  return [&code](const std::vector<Interval>& states,
+                 const Interval& sample) -> std::optional<std::vector<double>> {
+    model::code::StepRanges ranges{states, sample, code.recursion.bases};
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const auto angle = code.recursion.ranges.find(code.listing.states[i].input);
+      if (angle != code.recursion.ranges.end()) {
+        ranges.states[i] = Interval::from_bounds(angle->second.low, angle->second.high);
+      }
+    }
+    std::optional<model::code::StepRounding> found = model::code::step_rounding(code.listing, ranges);
+    if (!found) {
+      return std::nullopt;
+    }
+    found->next.push_back(found->frequency);
+    return std::move(found->next);
+  };
+}
+
 model::SetQuestion question_of(const Model& model, const ModelTables& tables, bool by_structure) {
   const ModelAssumptions& assume = tables.assume;
   model::SetQuestion question{.tone = proposed_tone(model, assume), .tracker = proved_model(model, assume)};
+  if (tables.model.compiled && tables.model.compiled->recursion.ranges_keep_obligations) {
+    question.rounding = rounding_of(*tables.model.compiled);
+  }
   question.tone.filter = by_structure && bounds_covariance(model, tables) ? question.tracker.filter : nullptr;
   if (is_constant_in_range(assume)) {
     question.tone_at = [&model, filter = question.tone.filter](double amplitude, double deviation) {

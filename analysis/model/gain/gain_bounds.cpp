@@ -249,7 +249,8 @@ std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance)
     return std::nullopt;
   }
   LoopBounds result;
-  const double bias = rigor::magnitude(network_.bias);
+  // The frequency that the program reports is off by its own rounding.
+  const double bias = rigor::add_up(rigor::magnitude(network_.bias), network_.rounding_of_frequency);
   result.from_block.resize(sequence->size());
   for (std::size_t block = sequence->size(); block-- > 0;) {
     const double error = rigor::add_up((*sequence)[block].back(), bias);
@@ -261,21 +262,30 @@ std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance)
   result.long_run = rigor::add_up(settled.back(), bias);
   // Each part that turns with the signal has the mean 0, but for the share by which the error of its angle
   // changes it.
-  result.mean = settled.back();
+  result.mean = rigor::add_up(settled.back(), network_.rounding_of_frequency);
   for (const LoopNetwork::TurningPart& part : network_.turning) {
     const double share = std::min(1.0, settled[part.angle]);
     result.mean = rigor::add_up(rigor::sub_up(result.mean, part.error), rigor::mul_up(part.error, share));
   }
   const Numbers size = sizes(disturbance, settled);
-  result.budget.steady_state = bias;
+  result.budget.steady_state = rigor::magnitude(network_.bias);
+  result.budget.rounding = network_.rounding_of_frequency;
   result.budget.ripple = network_.ripple.back();
   for (std::size_t l = 0; l < size.size(); ++l) {
     const Cause cause = network_.inputs[l].cause;
     double& part = cause == Cause::noise       ? result.budget.noise
                    : cause == Cause::slew      ? result.budget.slew
                    : cause == Cause::remainder ? result.budget.remainders
+                   : cause == Cause::rounding  ? result.budget.rounding
                                                : result.budget.steady_state;
     part = plus(part, total_.back()[l], size[l]);
+  }
+  for (const std::size_t form : network_.state_forms) {
+    double most = 0.0;
+    for (const Numbers& of_block : *sequence) {
+      most = std::max(most, of_block[form]);
+    }
+    result.states.push_back(most);
   }
   return result;
 }

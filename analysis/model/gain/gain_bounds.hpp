@@ -20,7 +20,8 @@ struct LoopDisturbance {
 /// The contributions to the frequency error in the long run, rad/sample, each at most.
 struct ErrorBudget {
   double noise = 0.0, slew = 0.0, remainders = 0.0, steady_state = 0.0;
-  double ripple = 0.0;  ///< one channel: what turns with the signal
+  double ripple = 0.0;    ///< one channel: what turns with the signal
+  double rounding = 0.0;  ///< of the program
 };
 
 /// Bounds of the frequency error, rad/sample.
@@ -30,7 +31,8 @@ struct LoopBounds {
   double long_run = 0.0;
   double mean =
       0.0;  ///< of the error without the bias, over the phase, in the long run at a constant frequency
-  ErrorBudget budget;  ///< of the long run
+  ErrorBudget budget;          ///< of the long run
+  std::vector<double> states;  ///< with rounding: how far each is from the steady state, at most
 };
 
 class GainBounds {

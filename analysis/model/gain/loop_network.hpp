@@ -28,7 +28,7 @@ struct SteadyValue {
 
 /// An input of the network.
 struct NetworkInput {
-  enum class Cause { noise, slew, remainder, residual };
+  enum class Cause { noise, slew, remainder, residual, rounding };
   Cause cause = Cause::noise;
   std::string what;  ///< of a remainder: the operation
   /// The size at most: of noise at this noise, of a slew at this slew, of a remainder at these bounds of the
@@ -60,8 +60,10 @@ struct LoopNetwork {
     std::size_t angle = 0;
   };
   std::vector<TurningPart> turning;
-  bool may_rest_at_kink = false;  ///< then there is no matrix to first order
-  bool has_ripples = false;       ///< then bounds are for a constant frequency
+  bool may_rest_at_kink = false;         ///< then there is no matrix to first order
+  bool has_ripples = false;              ///< then bounds are for a constant frequency
+  std::vector<std::size_t> state_forms;  ///< with rounding: the forms that are the states, in their order
+  double rounding_of_frequency = 0.0;    ///< what the reported frequency is off, rad/sample
   /// The one state of which the frequency error is a multiple, and the factor; or none.
   std::optional<std::pair<std::size_t, double>> frequency_state;
 };

@@ -168,6 +168,46 @@ ProvedSets unstable(GainProof proof) {
   return sets;
 }
 
+/// The rounding of the program while its states are as far from the steady state as they come without it, and
+/// half as far again. Empty where no bound is known.
+std::optional<LoopRounding> rounding_of(const SetQuestion& question, const FoundLoop& found,
+                                        const GainBounds& gains, const ProvedSets& sets,
+                                        const LoopDisturbance& assumed) {
+  constexpr double kSpare = 1.5;
+  const std::size_t n = found.steady.size();
+  LoopNetwork network = gains.network();
+  add_rounding(network, {std::vector<double>(n, INFINITY), std::vector<double>(n, 0.0), 0.0});
+  const std::optional<GainBounds> probe =
+      GainBounds::make(std::move(network), gains.samples(), gains.blocks());
+  if (!probe) {
+    return std::nullopt;
+  }
+  std::vector<LoopDisturbance> worst{assumed};
+  if (sets.noise && sets.noise->is_proved()) {
+    worst.push_back({sets.noise->tubes.noise, 0.0, {}});
+  }
+  if (const auto& state = gains.network().frequency_state; state && sets.starts.reach > 0.0) {
+    worst.push_back({0.0, 0.0, std::vector<double>(n, 0.0)});
+    worst.back().start[state->first] = rigor::div_up(
+        rigor::add_up(sets.starts.reach, rigor::magnitude(gains.network().bias)), state->second);
+  }
+  std::vector<double> room(n, 0.0);
+  for (const LoopDisturbance& each : worst) {
+    const std::optional<LoopBounds> bounds = probe->bounds(each);
+    for (std::size_t i = 0; bounds && i < n; ++i) {
+      room[i] = std::max(room[i], bounds->states[i]);
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const SteadyValue& each = found.steady[i];
+    const double size =
+        std::fabs(each.constant) + std::fabs(each.per_frequency * question.whole_band.upper());
+    room[i] = question.tracker.recursion->is_angle[i] ? INFINITY : kSpare * room[i] + 0x1p-10 * size;
+  }
+  return rounding_within(std::move(room), question.rounding, question.tracker, found.steady,
+                         question.whole_band);
+}
+
 }  // namespace
 
 double samples_below(const GainProof& proof, const Interval& target) {
@@ -248,7 +288,22 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, NoGains* r
     for (const Interval& each : question.deviations) {
       assumed.start.push_back(each.upper());
     }
-    sets.gains = GainProof{found->steady, radius, *gains, assumed, gains->bounds(assumed)};
+    std::optional<LoopRounding> rounding;
+    if (question.rounding) {
+      rounding = rounding_of(question, *found, *gains, sets, assumed);
+    }
+    if (rounding) {
+      LoopNetwork network = gains->network();
+      add_rounding(network, *rounding);
+      std::optional<GainBounds> rounded = GainBounds::make(std::move(network), *samples, kBlocks);
+      if (rounded && rounded->bounds({})) {
+        gains = std::move(rounded);
+        sets = GainSets(question, *gains, half_distance).all();
+      } else {
+        rounding.reset();
+      }
+    }
+    sets.gains = GainProof{found->steady, radius, *gains, assumed, gains->bounds(assumed), rounding};
     return sets;
   } catch (const NoFrame& objection) {
     return nothing(NoGains::Kind::structure, objection.what());

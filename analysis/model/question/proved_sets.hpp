@@ -21,6 +21,7 @@ struct GainProof {
   std::optional<GainBounds> gains;             ///< none of an unstable loop
   LoopDisturbance disturbance = {};            ///< that is assumed
   std::optional<LoopBounds> assumed = {};      ///< for it
+  std::optional<LoopRounding> rounding = {};   ///< of the program that runs; none: exact arithmetic
 };
 
 /// The same for a loop whose errors depend on the phase, beside tubes or without them.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/model/gain/loop_rounding.hpp"
 #include "analysis/model/set/amplitude_parts.hpp"
 #include "analysis/model/set/searched_band.hpp"
 #include "analysis/model/set/tube_set.hpp"
@@ -25,6 +26,7 @@ struct SetQuestion {
   bool allows_gains = false;
   /// Nothing is asked that only tubes answer, the amplitude is one number, and there is no filter.
   bool allows_phase_gains = false;
+  RoundingOfStep rounding = {};                  ///< of the program that runs; empty: exact arithmetic
   double noise = 0.0;                            ///< at most, signal units
   double slew = 0.0;                             ///< at most, rad/sample per sample
   std::vector<rigor::Interval> deviations = {};  ///< of the assumed starts from the curve, one for each state

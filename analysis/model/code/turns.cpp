@@ -1,11 +1,11 @@
-#include "certificates/code/turns.hpp"
+#include "analysis/model/code/turns.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-namespace veritrack::certificates::code {
+namespace veritrack::model::code {
 
 namespace {
 
@@ -49,7 +49,6 @@ int Turns::plain(int value) const {
   }
 }
 
-/// What a condition is for numbers, where it asks only whether a value is one.
 std::optional<bool> Turns::tests_for_numbers(int condition) const {
   const Instruction& instruction = at(condition);
   if (instruction.operation == Operation::fcmp &&
@@ -110,6 +109,18 @@ std::optional<Range> Turns::range(int value, int base, Range of_base) const {
     whole.high = std::max(whole.high, part.of_base.high + shift);
   }
   return whole;
+}
+
+std::optional<std::vector<double>> Turns::shifts(int value, int base, Range of_base) const {
+  const auto parts = pieces(value, base, Part{of_base, {}});
+  if (!parts || parts->empty()) {
+    return std::nullopt;
+  }
+  std::vector<double> all;
+  for (const Piece& piece : *parts) {
+    all.push_back(piece.shift);
+  }
+  return all;
 }
 
 std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, const Part& part) const {
@@ -223,4 +234,4 @@ bool Turns::is_never(int condition, int base, Range of_base) const {
          std::none_of(truths->begin(), truths->end(), [](const Truth& each) { return each.holds; });
 }
 
-}  // namespace veritrack::certificates::code
+}  // namespace veritrack::model::code

@@ -7,7 +7,7 @@
 
 #include "trackers/code/listing.hpp"
 
-namespace veritrack::certificates::code {
+namespace veritrack::model::code {
 
 /// A range of numbers, both ends included.
 struct Range {
@@ -32,6 +32,10 @@ class Turns {
   /// The range of a wrapped value, or of one that a condition compares, where `base` has this range; nothing
   /// where the value is made of anything else.
   [[nodiscard]] std::optional<Range> range(int value, int base, Range of_base) const;
+  /// What is added to the base, one entry for each way in which a value of the base's range may go.
+  [[nodiscard]] std::optional<std::vector<double>> shifts(int value, int base, Range of_base) const;
+  /// What a condition is for numbers, where it asks only whether a value is one.
+  [[nodiscard]] std::optional<bool> tests_for_numbers(int condition) const;
   /// Whether a condition certainly does not hold where `base` has this range.
   [[nodiscard]] bool is_never(int condition, int base, Range of_base) const;
 
@@ -40,7 +44,6 @@ class Turns {
     return listing_->instructions[static_cast<std::size_t>(value)];
   }
   [[nodiscard]] std::optional<double> number(int value) const;
-  [[nodiscard]] std::optional<bool> tests_for_numbers(int condition) const;
   /// A part of the base's range, and the comparisons that are decided there: next to its limit, a comparison
   /// may be true or false, but it is the same one wherever it is asked for.
   struct Part {
@@ -69,4 +72,4 @@ class Turns {
 /// Slack of a wrap: constants of single precision for turns and half turns, and the rounding of sums.
 inline constexpr double kWrapSlack = 1e-5;
 
-}  // namespace veritrack::certificates::code
+}  // namespace veritrack::model::code

@@ -1,0 +1,448 @@
+#include "analysis/model/code/listing_rounding.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "analysis/rigor/elementary.hpp"
+
+namespace veritrack::model::code {
+
+namespace {
+
+using rigor::Interval;
+using trackers::code::Format;
+using trackers::code::Instruction;
+using trackers::code::Listing;
+using trackers::code::Operation;
+using trackers::code::Predicate;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The exact value, and a bound on what the computed one is off.
+struct Computed {
+  Interval exact;
+  double error = kInfinity;
+};
+
+double unit_roundoff(Format format) {
+  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
+}
+/// The smallest normal number: what may be flushed.
+double smallest(Format format) {
+  return format.bits == 32 ? 0x1p-126 : 0x1p-1022;
+}
+double largest(Format format) {
+  return format.bits == 32 ? 0x1p127 : 0x1p1023;
+}
+
+/// Both the exact value and the computed one.
+Interval around(const Computed& value) {
+  return value.exact + Interval::from_bounds(-value.error, value.error);
+}
+
+class Evaluation {
+ public:
+  Evaluation(const Listing& listing, const StepRanges& ranges)
+      : listing_(&listing), ranges_(&ranges), turns_(listing) {
+    for (std::size_t i = 0; i < listing.states.size(); ++i) {
+      known_[listing.states[i].input] = {ranges.states.at(i), 0.0};
+    }
+    for (const int sample : listing.samples) {
+      known_[sample] = {ranges.sample, 0.0};
+    }
+  }
+
+  [[nodiscard]] std::optional<StepRounding> all() {
+    StepRounding result;
+    for (const trackers::code::State& state : listing_->states) {
+      result.next.push_back(turns_.is_wrapped(state.next) ? wrapped(state.next).error
+                                                          : value(state.next).error);
+    }
+    result.frequency = value(listing_->frequency).error;
+    const bool is_known =
+        std::isfinite(result.frequency) &&
+        std::all_of(result.next.begin(), result.next.end(), [](double e) { return std::isfinite(e); });
+    return is_known ? std::optional(std::move(result)) : std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] const Instruction& at(int value) const {
+    return listing_->instructions[static_cast<std::size_t>(value)];
+  }
+
+  /// The result of an operation that is off by `error` and is then rounded to the format, by `units` of its
+  /// roundoff.
+  [[nodiscard]] static Computed rounded(Format format, const Interval& exact, double error,
+                                        double units = 1.0) {
+    const double most = rigor::add_up(rigor::magnitude(exact), error);
+    if (!rigor::is_finite(exact) || !(most <= largest(format))) {
+      return {exact, kInfinity};
+    }
+    const double rounding = rigor::mul_up(rigor::mul_up(units, unit_roundoff(format)), most);
+    return {exact, rigor::add_up(error, rigor::add_up(rounding, smallest(format)))};
+  }
+
+  [[nodiscard]] Computed value(int number) {
+    number = listing_plain(number);
+    if (const auto found = known_.find(number); found != known_.end()) {
+      return found->second;
+    }
+    Computed result = operation(number);
+    if (!(result.error >= 0.0) || !rigor::is_finite(result.exact)) {
+      result.error = kInfinity;
+    }
+    known_[number] = result;
+    return result;
+  }
+
+  /// Behind tests for values that are no numbers; conversions round.
+  [[nodiscard]] int listing_plain(int number) const {
+    while (at(number).operation == Operation::select) {
+      const std::optional<bool> is_number = turns_.tests_for_numbers(at(number).operands[0]);
+      if (!is_number) {
+        break;
+      }
+      number = at(number).operands[*is_number ? 1 : 2];
+    }
+    return number;
+  }
+
+  [[nodiscard]] Computed operation(int number) {
+    const Instruction& instruction = at(number);
+    const Format format = instruction.format;
+    if (!format.is_float) {
+      return {};
+    }
+    const auto operand = [&](std::size_t i) { return value(instruction.operands[i]); };
+    switch (instruction.operation) {
+      case Operation::constant: {
+        const double constant = trackers::code::number_of(format, instruction.bits);
+        return std::isfinite(constant) ? Computed{Interval(constant), 0.0} : Computed{};
+      }
+      case Operation::fpext:
+        return operand(0);
+      case Operation::fptrunc:
+        return rounded(format, operand(0).exact, operand(0).error);
+      case Operation::fneg:
+        return {-operand(0).exact, operand(0).error};
+      case Operation::fabs:
+        return {rigor::abs(operand(0).exact), operand(0).error};
+      case Operation::fadd:
+        return rounded(format, operand(0).exact + operand(1).exact,
+                       rigor::add_up(operand(0).error, operand(1).error));
+      case Operation::fsub:
+        return rounded(format, operand(0).exact - operand(1).exact,
+                       rigor::add_up(operand(0).error, operand(1).error));
+      case Operation::fmul:
+        return product(instruction);
+      case Operation::fdiv:
+        return quotient(format, operand(0), operand(1));
+      case Operation::fmin:
+      case Operation::fmax:
+        return of_two(operand(0), operand(1), instruction.operation == Operation::fmin);
+      case Operation::select:
+        return turns_.is_wrapped(number) ? wrapped(number) : chosen(instruction);
+      default:
+        return function(instruction);
+    }
+  }
+
+  [[nodiscard]] Computed product(const Instruction& instruction) {
+    const Computed a = value(instruction.operands[0]);
+    const Computed b = value(instruction.operands[1]);
+    const Interval exact =
+        instruction.operands[0] == instruction.operands[1] ? rigor::square(a.exact) : a.exact * b.exact;
+    const double by_b = rigor::mul_up(rigor::magnitude(a.exact), b.error);
+    const double by_a = rigor::mul_up(a.error, rigor::add_up(rigor::magnitude(b.exact), b.error));
+    return rounded(instruction.format, exact, rigor::add_up(by_a, by_b));
+  }
+
+  /// a'/b' - a/b = ((a' - a) - (a/b)(b' - b)) / b'.
+  [[nodiscard]] static Computed quotient(Format format, const Computed& a, const Computed& b) {
+    const double least = rigor::sub_down(rigor::mignitude(b.exact), b.error);
+    if (!(least > 0.0)) {
+      return {};
+    }
+    const Interval exact = a.exact / b.exact;
+    const double off = rigor::add_up(a.error, rigor::mul_up(rigor::magnitude(exact), b.error));
+    return rounded(format, exact, rigor::div_up(off, least));
+  }
+
+  /// The smaller, or the larger: exact, and no more off than both.
+  [[nodiscard]] static Computed of_two(const Computed& a, const Computed& b, bool is_smaller) {
+    const Interval exact = is_smaller ? Interval::from_bounds(std::min(a.exact.lower(), b.exact.lower()),
+                                                              std::min(a.exact.upper(), b.exact.upper()))
+                                      : Interval::from_bounds(std::max(a.exact.lower(), b.exact.lower()),
+                                                              std::max(a.exact.upper(), b.exact.upper()));
+    return {exact, std::max(a.error, b.error)};
+  }
+
+  /// A wrapped value: its base, less whole turns.
+  [[nodiscard]] Computed wrapped(int number) {
+    const int base = turns_.without_turns(number);
+    const auto range = ranges_->bases.find(base);
+    const auto shifts =
+        range == ranges_->bases.end() ? std::nullopt : turns_.shifts(number, base, range->second);
+    const auto reached = shifts ? turns_.range(number, base, range->second) : std::nullopt;
+    const Computed before = value(base);
+    // Ranges of bases hold with that slack.
+    if (!reached || !(before.error <= kWrapSlack)) {
+      return {};
+    }
+    const double most = rigor::add_up(std::max({std::fabs(range->second.low), std::fabs(range->second.high),
+                                                std::fabs(reached->low), std::fabs(reached->high)}),
+                                      kWrapSlack);
+    double error = 0.0;
+    for (const double shift : *shifts) {
+      const double count = std::round(shift / (2.0 * std::numbers::pi));
+      const Interval off = Interval(shift) - Interval(2.0 * count) * rigor::pi();
+      // At most one rounding for each turn; without a turn nothing is computed.
+      const double roundings =
+          rigor::mul_up(rigor::mul_up(std::fabs(count), unit_roundoff(at(number).format)), most);
+      error = std::max(error, rigor::add_up(rigor::magnitude(off), roundings));
+    }
+    const Interval exact = Interval::from_bounds(std::max(reached->low, -kMostOfWrapped),
+                                                 std::min(reached->high, kMostOfWrapped));
+    return {exact, rigor::add_up(before.error, error)};
+  }
+
+  /// The branch that is certainly taken, or both where nothing jumps.
+  [[nodiscard]] Computed chosen(const Instruction& instruction) {
+    const auto& [condition, yes, no] = instruction.operands;
+    if (const std::optional<bool> holds = decided(condition)) {
+      return value(*holds ? yes : no);
+    }
+    const Instruction& comparison = at(condition);
+    if (comparison.operation != Operation::fcmp) {
+      return {};
+    }
+    const int first = turns_.plain(comparison.operands[0]);
+    const int second = turns_.plain(comparison.operands[1]);
+    const bool is_order = comparison.predicate != Predicate::oeq && comparison.predicate != Predicate::one &&
+                          comparison.predicate != Predicate::ueq && comparison.predicate != Predicate::une;
+    // Two numbers that are compared and of which one is taken: the same where they are equal, also with
+    // limits of the one or the other behind it.
+    if (is_order && meets(yes, no, first, second)) {
+      const Computed a = value(yes);
+      const Computed b = value(no);
+      return {hull(a.exact, b.exact), std::max(a.error, b.error)};
+    }
+    return {};
+  }
+
+  /// Whether the two branches are the same number where the two that are compared are.
+  [[nodiscard]] bool meets(int yes, int no, int first, int second) const {
+    const auto is = [&](int a, int b) {
+      const Instruction& x = at(turns_.plain(a));
+      const Instruction& y = at(turns_.plain(b));
+      return turns_.plain(a) == turns_.plain(b) ||
+             (x.operation == Operation::constant && y.operation == Operation::constant && x.format.is_float &&
+              y.format.is_float &&
+              trackers::code::number_of(x.format, x.bits) == trackers::code::number_of(y.format, y.bits));
+    };
+    if ((is(yes, first) && is(no, second)) || (is(yes, second) && is(no, first))) {
+      return true;
+    }
+    // |x| as x < 0 ? -x : x.
+    const auto is_negative_of = [&](int a, int b) {
+      const Instruction& x = at(turns_.plain(a));
+      return x.operation == Operation::fneg && is(x.operands[0], b);
+    };
+    const auto is_zero = [&](int a) {
+      const Instruction& x = at(turns_.plain(a));
+      return x.operation == Operation::constant && x.format.is_float &&
+             trackers::code::number_of(x.format, x.bits) == 0.0;
+    };
+    const int other = is_zero(second) ? first : is_zero(first) ? second : -1;
+    if (other >= 0 &&
+        ((is(yes, other) && is_negative_of(no, other)) || (is(no, other) && is_negative_of(yes, other)))) {
+      return true;
+    }
+    // A limit on one side: x > high ? high : (x < low ? low : x).
+    for (const auto& [taken, rest] : {std::pair(yes, no), std::pair(no, yes)}) {
+      const Instruction& inner = at(turns_.plain(rest));
+      const bool takes_limit = is(taken, first) || is(taken, second);
+      const int limited = is(taken, first) ? second : first;
+      if (takes_limit && inner.operation == Operation::select &&
+          at(inner.operands[0]).operation == Operation::fcmp) {
+        const auto& [condition, a, b] = inner.operands;
+        const bool is_of_same = is(a, limited) || is(b, limited);
+        const int low = is(a, limited) ? b : a;
+        const Instruction& limit = at(turns_.plain(low));
+        const Instruction& high = at(turns_.plain(taken));
+        // Where x is the first limit, the inner one does not act: they are different constants, in order.
+        if (is_of_same && limit.operation == Operation::constant && high.operation == Operation::constant &&
+            inner_is_idle_at(inner, limited, high)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Whether an inner choice is `limited` itself where that is the number `there`.
+  [[nodiscard]] bool inner_is_idle_at(const Instruction& inner, int limited, const Instruction& there) const {
+    const Instruction& comparison = at(inner.operands[0]);
+    const auto number = [&](int value) -> std::optional<double> {
+      const int behind = turns_.plain(value);
+      const Instruction& x = behind == turns_.plain(limited) ? there : at(behind);
+      return x.operation == Operation::constant && x.format.is_float
+                 ? std::optional(trackers::code::number_of(x.format, x.bits))
+                 : std::nullopt;
+    };
+    const std::optional<double> a = number(comparison.operands[0]);
+    const std::optional<double> b = number(comparison.operands[1]);
+    if (!a || !b || *a == *b) {
+      return false;
+    }
+    const std::optional<bool> holds = order(comparison.predicate, *a < *b);
+    return holds && turns_.plain(inner.operands[*holds ? 1 : 2]) == turns_.plain(limited);
+  }
+
+  /// What a comparison is when the first number is certainly smaller, or certainly larger.
+  [[nodiscard]] static std::optional<bool> order(Predicate predicate, bool is_less) {
+    switch (predicate) {
+      case Predicate::olt:
+      case Predicate::ole:
+      case Predicate::ult:
+      case Predicate::ule:
+        return is_less;
+      case Predicate::ogt:
+      case Predicate::oge:
+      case Predicate::ugt:
+      case Predicate::uge:
+        return !is_less;
+      case Predicate::one:
+      case Predicate::une:
+        return true;
+      case Predicate::oeq:
+      case Predicate::ueq:
+        return false;
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// What a condition certainly is, of the exact values and of the computed ones.
+  [[nodiscard]] std::optional<bool> decided(int condition) {
+    if (const std::optional<bool> is_number = turns_.tests_for_numbers(condition)) {
+      return is_number;
+    }
+    const Instruction& instruction = at(condition);
+    const auto& [a, b, unused] = instruction.operands;
+    if (instruction.operation == Operation::constant) {
+      return instruction.bits != 0;
+    }
+    if (instruction.operation == Operation::fcmp) {
+      const Interval first = around(value(a));
+      const Interval second = around(value(b));
+      if (rigor::certainly_less(first, second)) {
+        return order(instruction.predicate, true);
+      }
+      return rigor::certainly_less(second, first) ? order(instruction.predicate, false) : std::nullopt;
+    }
+    const bool is_and = instruction.operation == Operation::bit_and;
+    if (is_and || instruction.operation == Operation::bit_or) {
+      const std::optional<bool> first = decided(a);
+      const std::optional<bool> second = decided(b);
+      if ((first && *first != is_and) || (second && *second != is_and)) {
+        return !is_and;
+      }
+      return first && second ? std::optional(is_and) : std::nullopt;
+    }
+    if (instruction.operation == Operation::bit_xor) {
+      const std::optional<bool> first = decided(a);
+      const std::optional<bool> second = decided(b);
+      return first && second ? std::optional(*first != *second) : std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Computed function(const Instruction& instruction) {
+    constexpr double kTwoPlaces = 4.0;  // units of roundoff in two units in the last place
+    const Format format = instruction.format;
+    const Computed x = value(instruction.operands[0]);
+    const Interval whole = around(x);
+    switch (instruction.operation) {
+      case Operation::sin:
+      case Operation::cos: {
+        const auto [sine, cosine] = rigor::sin_cos(x.exact);
+        const double most = rigor::magnitude(whole);
+        // Its bound was measured there.
+        const double absolute = format.bits == 32 && most <= 8.0 ? 0x1.8p-24 : 4.0 * unit_roundoff(format);
+        return {instruction.operation == Operation::sin ? sine : cosine, rigor::add_up(x.error, absolute)};
+      }
+      case Operation::sqrt: {
+        const double least = rigor::sub_down(x.exact.lower(), x.error);
+        if (!(least > 0.0)) {
+          return {};
+        }
+        const double root = rigor::sqrt(Interval(least)).lower();
+        return rounded(format, rigor::sqrt(x.exact), rigor::div_up(x.error, 2.0 * root));
+      }
+      case Operation::atan:
+        return rounded(format, rigor::atan(x.exact), x.error, kTwoPlaces);
+      case Operation::atan2:
+        return arc(instruction);
+      case Operation::asin:
+      case Operation::acos: {
+        if (!(rigor::magnitude(whole) < 1.0)) {
+          return {};
+        }
+        const Interval slope = rigor::sqrt(Interval(1.0) - rigor::square(whole));
+        const Interval sine = rigor::asin(x.exact);
+        const Interval exact =
+            instruction.operation == Operation::asin ? sine : rigor::pi() / Interval(2.0) - sine;
+        return rounded(format, exact, rigor::div_up(x.error, slope.lower()), kTwoPlaces);
+      }
+      case Operation::exp:
+        return rounded(format, rigor::exp(x.exact), rigor::mul_up(rigor::exp(whole).upper(), x.error),
+                       kTwoPlaces);
+      case Operation::log:
+        return whole.lower() > 0.0
+                   ? rounded(format, rigor::log(x.exact), rigor::div_up(x.error, whole.lower()), kTwoPlaces)
+                   : Computed{};
+      default:
+        return {};
+    }
+  }
+
+  /// The angle of a point turns by no more than asin(off / distance), at most pi/2 times that.
+  [[nodiscard]] Computed arc(const Instruction& instruction) {
+    constexpr double kTwoPlaces = 4.0;
+    const Computed y = value(instruction.operands[0]);
+    const Computed x = value(instruction.operands[1]);
+    const Interval half_turns = Interval::from_bounds(-rigor::pi().upper(), rigor::pi().upper());
+    if (y.error == 0.0 && x.error == 0.0) {
+      return rounded(instruction.format, half_turns, 0.0, kTwoPlaces);
+    }
+    const double off = rigor::add_up(y.error, x.error);
+    const double least = rigor::sub_down(rigor::sqrt(rigor::square(Interval(rigor::mignitude(y.exact))) +
+                                                     rigor::square(Interval(rigor::mignitude(x.exact))))
+                                             .lower(),
+                                         off);
+    // At the half turn it jumps, unless the point stays on one side of it.
+    const bool is_away = around(x).lower() > 0.0;
+    if (!(least > 0.0) || !is_away) {
+      return {};
+    }
+    return rounded(instruction.format, half_turns, rigor::mul_up(2.0, rigor::div_up(off, least)), kTwoPlaces);
+  }
+
+  const Listing* listing_;
+  const StepRanges* ranges_;
+  Turns turns_;
+  std::map<int, Computed> known_;
+};
+
+}  // namespace
+
+std::optional<StepRounding> step_rounding(const Listing& listing, const StepRanges& ranges) {
+  return Evaluation(listing, ranges).all();
+}
+
+}  // namespace veritrack::model::code

@@ -134,10 +134,9 @@ std::optional<Value> Executor::known_function(Frame& /*frame*/, const llvm::Call
   if (name == "__cxa_guard_acquire") {
     return Value(Register{graph_.constant({false, 32}, 1)});
   }
-  throw LiftError(
-      "a call of " + name +
-      ", which is neither defined in the files nor a function of the library that "
-      "is known; allowed: its file among `files`, or an entry of `functions` that says what it computes");
+  throw LiftError("a call of " + name +
+                  ", which is neither defined in the files nor a function of the library that "
+                  "is known; allowed: its file among `files`");
 }
 
 std::optional<Value> Executor::of_library(const std::string& name, llvm::Type* type,

@@ -148,7 +148,7 @@ ProgramRun run(const std::string& program, const std::vector<std::string>& argum
   const std::size_t what = column == std::string::npos ? column : text.find(": ", column + 1);
   if (what != std::string::npos && std::atoi(text.c_str() + line + 1) > 0) {
     const fs::path file = text.substr(0, line);
-    refuse(file.is_absolute() ? file : folder / file,
+    refuse(file.is_absolute() ? file : (folder / file).lexically_normal(),
            {std::atoi(text.c_str() + line + 1), std::atoi(text.c_str() + column + 1)}, text.substr(what + 2));
   }
   refuse(design_file, code.files.front().position, text);
@@ -171,7 +171,7 @@ CompiledCode compiled(const CodeTable& code, const fs::path& design_file) {
   std::vector<const MemoryFile*> handed_over;
   std::vector<std::string> paths;
   for (const SourceText& file : code.files) {
-    const fs::path path = folder / file.text;
+    const fs::path path = (folder / file.text).lexically_normal();
     result.files.push_back({file.text, sha256(read_file(path, design_file, file.position))});
     const ProgramRun compilation =
         run(kCompiler, arguments_for(code, path, folder), design_file, file.position);

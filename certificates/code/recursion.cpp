@@ -262,9 +262,45 @@ class Writer {
     return turns_.range(value, base, *of_base);
   }
 
+  /// Whether a state is part of a sum.
+  [[nodiscard]] bool is_summand(int state, int sum) const {
+    sum = turns_.plain(sum);
+    const Instruction& instruction = at(sum);
+    const bool is_sum = instruction.operation == Operation::fadd || instruction.operation == Operation::fsub;
+    return sum == state || (is_sum && (is_summand(state, instruction.operands[0]) ||
+                                       is_summand(state, instruction.operands[1])));
+  }
+
+  /// An angle that grows for ever stops when the next step is less than half of a unit in its last place.
+  void require_wraps(int angle) {
+    if (rest_of(angle)) {
+      return;  // it is the sum of an angle and more
+    }
+    const auto grows = [&](const trackers::code::State& state) {
+      return is_summand(state.input, angle) && is_summand(state.input, state.next) &&
+             turns_.plain(state.next) != state.input;
+    };
+    const auto moves_by_another = [&](const trackers::code::State& state) {
+      return grows(state) &&
+             std::any_of(listing_->states.begin(), listing_->states.end(), [&](const auto& other) {
+               return other.input != state.input && is_summand(other.input, state.next);
+             });
+    };
+    const auto& states = listing_->states;
+    auto found = std::find_if(states.begin(), states.end(), moves_by_another);
+    found = found == states.end() ? std::find_if(states.begin(), states.end(), grows) : found;
+    if (found != states.end()) {
+      refuse(found->next,
+             fmt::format("the angle {0} grows for ever and is not wrapped, so that its steps are rounded "
+                         "away in the end; allowed: e.g. if ({0} > PI) {0} -= 2*PI",
+                         found->name));
+    }
+  }
+
   /// A value modulo whole turns.
   [[nodiscard]] Formula angle(int value) {
     if (!turns_.is_wrapped(value)) {
+      require_wraps(value);
       return formula(value);
     }
     const int base = turns_.without_turns(value);
@@ -355,7 +391,8 @@ class Writer {
     Formula made = operation(value);
     constexpr std::size_t kLongest = 100;
     const bool is_constant = at(value).operation == Operation::constant;
-    if (!inlines_ && !counts_ && !is_constant && (uses_[value] > 1 || made.text.size() > kLongest)) {
+    if (!inlines_ && !counts_ && !is_constant && (uses_[value] > 1 || made.text.size() > kLongest) &&
+        !given_.contains(made.text)) {
       const std::string name = free_name("r");
       lines_.push_back(fmt::format("{} = {}", name, made.text));
       made = {name};

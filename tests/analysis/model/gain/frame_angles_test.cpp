@@ -24,11 +24,12 @@ constexpr double kHalfTurn = std::numbers::pi;
 /// A sample of two channels seen from an angle that is `ahead` of its phase in the steady state.
 struct TurnedSample {
   Frame frame{Interval(kTurnedLength), Interval(kTurnedTone), 2};
-  FrameValue theta, w, y1, y2, real, imaginary;
+  FrameValue theta, w, factor, y1, y2, real, imaginary;
 
   explicit TurnedSample(double ahead)
       : theta(frame.state(0, true, 1, ahead, 1.0)),
         w(frame.state(1, false, 0, 0.5, 2.0)),  // 1 in the steady state
+        factor(frame.constant(0, Interval(-0.3))),
         y1(frame.sample(0)),
         y2(frame.sample(1)),
         real(y1 * cos(theta) + y2 * sin(theta)),
@@ -135,6 +136,11 @@ TEST_CASE("the angle of a wave, of its conjugate and a quarter turn on, is that 
                           stream) > few);
     }
   }
+}
+
+TEST_CASE("a factor that is below 0 turns an angle by half a turn") {
+  CHECK(attack_turned([](const auto& v) { return atan2(v.factor * v.imaginary, v.factor * v.real); },
+                      [](auto z, double) { return std::arg(-0.3 * z); }, 7.0, 915) > test::effort(600) / 10);
 }
 
 TEST_CASE("an angle has its limit where the arc tangent jumps, and no steady state is there") {

@@ -63,8 +63,8 @@ double adjoint_attack(const test::ExampleTracker& loop, double omega, double end
   return std::fabs(w - omega);
 }
 
-std::string reason_of(const TrackerModel& tracker, const TrackedTone& tone, bool with_slew,
-                      const search::Deadline& deadline = {}) {
+std::string no_loop_because(const TrackerModel& tracker, const TrackedTone& tone, bool with_slew,
+                            const search::Deadline& deadline = {}) {
   try {
     (void)PhaseLoop::make(tracker, tone, kNarrow, with_slew, deadline);
   } catch (const NoFrame& reason) {
@@ -165,14 +165,14 @@ TEST_CASE("with a slew one cell has bounds of all its parts, up to that slew") {
 TEST_CASE("a loop without bounds has its reason") {
   const rigor::UpwardRounding upward;
   const test::Example unstable(test::phase_locked_loop(2.0));
-  CHECK(reason_of(unstable.model, test::tone_of(unstable.tracker), false).starts_with("no basis"));
+  CHECK(no_loop_because(unstable.model, test::tone_of(unstable.tracker), false).starts_with("no basis"));
   const test::TwoChannelExample fast(test::angle_loop(0.004, 0.1));
-  CHECK(reason_of(fast.model, fast.tone, false, search::Deadline(0.0)).starts_with("no basis"));
+  CHECK(no_loop_because(fast.model, fast.tone, false, search::Deadline(0.0)).starts_with("no basis"));
   const test::TwoChannelExample slow(test::angle_loop(1e-9, 4e-5));
-  const std::string reason = reason_of(slow.model, slow.tone, true);
+  const std::string reason = no_loop_because(slow.model, slow.tone, true);
   CHECK(reason.ends_with("too many with a slew"));
   const test::TwoChannelExample bent(test::two_channel_loop(0.1, 0.004, test::Detector::knee));
-  CHECK(reason_of(bent.model, bent.tone, false) != "none");
+  CHECK(no_loop_because(bent.model, bent.tone, false) != "none");
 }
 
 }  // namespace

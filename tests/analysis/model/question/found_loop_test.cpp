@@ -60,6 +60,16 @@ TEST_CASE("from any start the stable one of both steady states of a multiplier i
   }
 }
 
+TEST_CASE("of a loop that a simulation does not bring away from rest the state half a turn on is tried") {
+  const rigor::UpwardRounding upward;
+  const test::TwoChannelExample loop(test::two_channel_loop(2e-4, 1e-8, Detector::sine));
+  SetQuestion question = asked_over(loop, 0.1, 0.2);
+  question.tone.start = [](double omega) { return std::vector<double>{omega + std::numbers::pi, omega}; };
+  const auto found = find_loop(question);
+  REQUIRE(found.has_value());
+  CHECK(is_turned_by(found->steady[0].constant, 0.0));
+}
+
 TEST_CASE("where errors decay at neither, the steady state next to the start is given") {
   const rigor::UpwardRounding upward;
   const test::TwoChannelExample loop(test::two_channel_loop(2.1, 0.03, Detector::sine));

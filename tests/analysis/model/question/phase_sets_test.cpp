@@ -137,7 +137,8 @@ TEST_CASE("the first block from which the error is certainly below a target, in 
   CHECK(samples_below(proof, Interval(2.0)) == 10.0);
 }
 
-TEST_CASE("what is known already is not searched for, and too much noise is a reason") {
+TEST_CASE("what is known already is not searched for, and too much noise is a reason" *
+          doctest::test_suite("nightly")) {
   const test::TwoChannelExample loop(test::angle_loop(0.04, 0.4));
   const rigor::UpwardRounding upward;
   SetQuestion question{.tone = loop.tone, .tracker = loop.model};

@@ -287,20 +287,7 @@ FrameValue tan(const FrameValue& a) {
 FrameValue acos(const FrameValue& a) {
   return function(FrameOperation::arccosine, a);
 }
-
 FrameValue asin(const FrameValue& a) {
-  // From the sine of an angle: the angle, below a quarter turn.
-  if (a.kind() == Kind::waves && a.waves().size() == 1) {
-    const auto& [monomial, weights] = *a.waves().begin();
-    const bool is_sine = monomial.magnitude == 0 && monomial.noise == 0 && monomial.factors.empty() &&
-                         monomial.lengths.empty() && weights.real == 0.0 &&
-                         std::fabs(weights.imaginary) == 1.0;
-    if (is_sine) {
-      const WavePattern pattern{monomial, weights.imaginary > 0.0 ? 1 : -1, 0};
-      return {a.frame(), FrameRules::named(*a.frame(), FrameOperation::arcsine, a.name()),
-              FrameRules::angle_line(*a.frame(), pattern, 2)};
-    }
-  }
   return function(FrameOperation::arcsine, a);
 }
 

@@ -154,11 +154,16 @@ ProgramRun run(const std::string& program, const std::vector<std::string>& argum
   refuse(design_file, code.files.front().position, text);
 }
 
-/// A program that lies beside this one, or in PATH.
+/// A program that lies beside this one, or a folder above, where the tests are, or in PATH.
 std::string beside(const char* name) {
   std::error_code error;
-  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path() / name;
-  return fs::exists(here, error) ? here.string() : name;
+  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& place : {here / name, here.parent_path() / name}) {
+    if (fs::exists(place, error)) {
+      return place.string();
+    }
+  }
+  return name;
 }
 
 }  // namespace

@@ -73,9 +73,6 @@ std::optional<TableObjection> objection_to_missing(const ModelTable& model) {
   if (model.frequency.text.empty()) {
     return missing("frequency", "a formula of the states: the estimated frequency in rad/sample");
   }
-  if (model.start.empty()) {
-    return missing("start", "a table of formulas in A and omega, one for each state");
-  }
   return std::nullopt;
 }
 

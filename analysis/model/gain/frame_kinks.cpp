@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "analysis/model/gain/frame_rules.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 
@@ -93,9 +95,7 @@ FrameLine inside(Frame& frame, const FrameLine& x, const FrameLine& low, const F
     return with_remainder(
         frame, x, kWhat,
         [first, second, a = to_low.lower(), b = to_high.lower()](const std::vector<double>& bounds) {
-          const double low_side = beyond(bounds[first], a);
-          const double high_side = beyond(bounds[second], b);
-          return low_side >= high_side ? low_side : low_side < high_side ? high_side : NAN;
+          return larger_or_nan(beyond(bounds[first], a), beyond(bounds[second], b));
         });
   }
   if (!low.is_constant() || !high.is_constant() ||

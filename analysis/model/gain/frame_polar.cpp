@@ -3,12 +3,13 @@
 #include <functional>
 
 #include "analysis/model/gain/frame_rules.hpp"
-#include "analysis/model/gain/grid_function.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 

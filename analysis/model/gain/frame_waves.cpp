@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "analysis/model/gain/frame_rules.hpp"
-#include "analysis/model/gain/grid_function.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::model {

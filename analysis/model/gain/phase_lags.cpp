@@ -6,10 +6,12 @@
 
 #include "analysis/model/gain/phase_kernels.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 

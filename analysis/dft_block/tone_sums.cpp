@@ -11,13 +11,14 @@ namespace {
 using rigor::Interval;
 using rigor::symmetric;
 
-struct Jet {
+/// sinc, or one s_m, and its first two derivatives.
+struct SincDerivatives {
   Interval value, slope, bend;
 };
 
 /// sinc and its first two derivatives near 0: sum (-1)^k pi^2k d^2k / (2k+1)!, whose terms alternate and
 /// fall.
-Jet jet_near_zero(const Interval& d) {
+SincDerivatives sinc_near_zero(const Interval& d) {
   constexpr int kTerms = 14;
   const Interval square_of_pi = square(rigor::pi());
   Interval value(0.0);
@@ -40,7 +41,7 @@ Jet jet_near_zero(const Interval& d) {
 
 /// (-1)^m of it is s_m: with sine and cosine of pi x, s = sine/(pi d), s' = (cosine - s)/d, and d s'' + 2 s'
 /// + pi^2 d s = 0.
-Jet jet_from(const Interval& d, const Interval& sine, const Interval& cosine) {
+SincDerivatives sinc_from(const Interval& d, const Interval& sine, const Interval& cosine) {
   const Interval value = sine / (rigor::pi() * d);
   const Interval slope = (cosine - value) / d;
   return {value, slope, -(square(rigor::pi()) * value) - Interval(2.0) * slope / d};
@@ -93,18 +94,18 @@ Taps enclose_taps(const Interval& offset, int half_width) {
     const auto i = static_cast<std::size_t>(m + half_width);
     const Interval d = middle + Interval(m);
     constexpr double kNear = 0.25;
-    Jet jet;
+    SincDerivatives sinc;
     if (magnitude(d) < kNear) {
-      jet = jet_near_zero(d);
+      sinc = sinc_near_zero(d);
       if (m % 2 != 0) {
-        jet = {-jet.value, -jet.slope, -jet.bend};
+        sinc = {-sinc.value, -sinc.slope, -sinc.bend};
       }
     } else {
-      jet = jet_from(d, sine, cosine);
+      sinc = sinc_from(d, sine, cosine);
     }
-    taps.value[i] = jet.value + jet.slope * t + jet.bend * half_square + rest_value;
-    taps.slope[i] = jet.slope + jet.bend * t + rest_slope;
-    taps.bend[i] = jet.bend + rest_bend;
+    taps.value[i] = sinc.value + sinc.slope * t + sinc.bend * half_square + rest_value;
+    taps.slope[i] = sinc.slope + sinc.bend * t + rest_slope;
+    taps.bend[i] = sinc.bend + rest_bend;
   }
   return taps;
 }

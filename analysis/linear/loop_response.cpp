@@ -7,21 +7,25 @@
 
 namespace veritrack::linear {
 
-std::vector<LoopMode> modes_of(const LinearLoop& loop) {
+LoopMode mode_of(const std::complex<double>& multiplier) {
   constexpr double kNothing = 1e-12;
+  LoopMode mode{multiplier, 0.0, 1.0, 0.0};
+  if (std::abs(multiplier) > kNothing) {
+    const std::complex<double> s = std::log(multiplier);
+    mode.time_constant = -1.0 / s.real();
+    mode.frequency = std::abs(s);
+    mode.damping = mode.frequency > 0.0 ? -s.real() / mode.frequency : 0.0;
+  }
+  return mode;
+}
+
+std::vector<LoopMode> modes_of(const LinearLoop& loop) {
   std::vector<LoopMode> modes;
   for (const std::complex<double>& z : rigor::eigenvalues_by_size(loop.a)) {
     if (z.imag() < 0.0) {
       continue;  // the other one of a pair
     }
-    LoopMode mode{z, 0.0, 1.0, 0.0};
-    if (std::abs(z) > kNothing) {
-      const std::complex<double> s = std::log(z);
-      mode.time_constant = -1.0 / s.real();
-      mode.frequency = std::abs(s);
-      mode.damping = -s.real() / std::abs(s);
-    }
-    modes.push_back(mode);
+    modes.push_back(mode_of(z));
   }
   return modes;
 }

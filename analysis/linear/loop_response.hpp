@@ -23,10 +23,12 @@ struct LinearLoop {
 /// A real mode, or a pair.
 struct LoopMode {
   std::complex<double> multiplier;
-  double time_constant = 0.0;  ///< samples in which it decays by a factor e; 0: at once
-  double damping = 1.0;        ///< -Re s/|s| with s = ln(multiplier)
-  double frequency = 0.0;      ///< |s|, rad/sample
+  /// Samples in which it decays by a factor e; 0: at once; below 0, or infinite, where it does not decay.
+  double time_constant = 0.0;
+  double damping = 1.0;    ///< -Re s/|s| with s = ln(multiplier)
+  double frequency = 0.0;  ///< |s|, rad/sample
 };
+[[nodiscard]] LoopMode mode_of(const std::complex<double>& multiplier);
 [[nodiscard]] std::vector<LoopMode> modes_of(const LinearLoop& loop);
 
 /// Deviation of the estimate for white noise of deviation 1 in each component.

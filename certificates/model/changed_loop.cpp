@@ -53,15 +53,7 @@ std::optional<Multipliers> ChangedLoop::over_phase(double value) const {
   const auto cell =
       model::propose_floquet_cell(proposed_tone(model, changed.assume), model::FloquetGauge::by_mode, omega,
                                   omega + 1e-6, kShare * std::fabs(omega));
-  if (!cell) {
-    return std::nullopt;
-  }
-  const auto n = static_cast<Eigen::Index>(cell->states());
-  Eigen::MatrixXd matrix(n, n);
-  for (Eigen::Index i = 0; i < n * n; ++i) {
-    matrix(i / n, i % n) = cell->matrix[static_cast<std::size_t>(i)].front();
-  }
-  return rigor::eigenvalues_by_size(matrix);
+  return cell ? std::optional(model::floquet_multipliers(*cell)) : std::nullopt;
 }
 
 bool ChangedLoop::is_stable(double value) const {

@@ -8,7 +8,7 @@
 #include <complex>
 #include <vector>
 
-#include "analysis/rigor/spectral_radius.hpp"
+#include "analysis/model/gain/floquet_proposal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/markdown_model_gains.hpp"
 #include "certificates/model/model_sets.hpp"
@@ -23,13 +23,8 @@ namespace {
 std::string modes_of(const model::PhaseProof& proof, const std::optional<Number>& sample_rate,
                      const FrequencyUnits& units) {
   const model::FloquetCell& cell = proof.cells[proof.cells.size() / 2];
-  const auto n = static_cast<Eigen::Index>(cell.states());
-  Eigen::MatrixXd matrix(n, n);
-  for (Eigen::Index i = 0; i < n * n; ++i) {
-    matrix(i / n, i % n) = cell.matrix[static_cast<std::size_t>(i)].front();
-  }
   std::vector<std::string> times;
-  for (const std::complex<double>& each : rigor::eigenvalues_by_size(matrix)) {
+  for (const std::complex<double>& each : model::floquet_multipliers(cell)) {
     const double samples = -1.0 / std::log(std::abs(each));
     if (samples > 0.5) {
       times.push_back(sample_rate
@@ -40,7 +35,7 @@ std::string modes_of(const model::PhaseProof& proof, const std::optional<Number>
   return fmt::format(
       "To first order, errors of the {} states decay in modes with the time constants {}{} (at {:.4g} {}, to "
       "three digits, not proved); what is faster than half a sample is left out.\n\n",
-      n, fmt::join(times, ", "), sample_rate ? "" : " samples", units.drawn(cell.curve.frequency),
+      cell.states(), fmt::join(times, ", "), sample_rate ? "" : " samples", units.drawn(cell.curve.frequency),
       units.drawn_unit());
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/linear/loop_response.hpp"
 #include "certificates/design/request_error.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -24,12 +25,9 @@ namespace {
 using certificates::RootLocus;
 namespace markdown = certificates::markdown;
 
-constexpr double kGone = 1e-9;  // a multiplier of which nothing is left after a sample
-
 /// Samples in which an error shrinks by a factor of e; NaN where it grows.
 double decay_of(const std::complex<double>& multiplier) {
-  const double size = std::abs(multiplier);
-  return size < 1.0 ? -1.0 / std::log(std::max(size, 1e-300)) : NAN;
+  return std::abs(multiplier) < 1.0 ? linear::mode_of(multiplier).time_constant : NAN;
 }
 
 FigureTable numbers_of(const RootLocus& locus) {
@@ -74,10 +72,7 @@ std::string time_constant_of(const RootLocus::Point& point) {
 std::string damping_of(const RootLocus::Point& point) {
   double least = 1.0;
   for (const std::complex<double>& each : point.multipliers) {
-    if (std::abs(each) > kGone) {
-      const std::complex<double> s = std::log(each);
-      least = std::min(least, std::abs(s) > 0.0 ? -s.real() / std::abs(s) : 0.0);
-    }
+    least = std::min(least, linear::mode_of(each).damping);
   }
   return point.is_stable() ? fmt::format("{:.3g}", least) : "";
 }

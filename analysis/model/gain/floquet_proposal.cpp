@@ -5,10 +5,12 @@
 #include <complex>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "analysis/model/gain/floquet_nodes.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_matrix.hpp"
+#include "analysis/rigor/spectral_radius.hpp"
 
 namespace veritrack::model {
 
@@ -116,6 +118,15 @@ std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, Floquet
     cell.matrix.push_back(std::move(of_z));
   }
   return cell;
+}
+
+std::vector<std::complex<double>> floquet_multipliers(const FloquetCell& cell) {
+  const auto n = static_cast<Eigen::Index>(cell.states());
+  Eigen::MatrixXd matrix(n, n);
+  for (Eigen::Index i = 0; i < n * n; ++i) {
+    matrix(i / n, i % n) = cell.matrix[static_cast<std::size_t>(i)].front();
+  }
+  return rigor::eigenvalues_by_size(matrix);
 }
 
 }  // namespace veritrack::model

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <complex>
 #include <optional>
+#include <vector>
 
 #include "analysis/model/gain/floquet_modes.hpp"
 #include "analysis/model/gain/phase_step.hpp"
@@ -15,5 +17,9 @@ namespace veritrack::model {
 [[nodiscard]] std::optional<FloquetCell> propose_floquet_cell(const TrackedTone& tone, FloquetGauge gauge,
                                                               double low, double high,
                                                               double largest_mean_error = INFINITY);
+
+/// The multipliers of the modes in the middle of the cell's frequencies, the largest first; of a pair the one
+/// with the positive imaginary part first. Rounding is the caller's.
+[[nodiscard]] std::vector<std::complex<double>> floquet_multipliers(const FloquetCell& cell);
 
 }  // namespace veritrack::model

@@ -51,8 +51,7 @@ FrameLine FrameRules::whole_angle(Frame& frame, const WavePattern& pattern) {
       };
       frame.angle_input_ = add_input(frame, std::move(input));
     }
-    const auto [place, is_new] = angle.inputs.try_emplace(frame.angle_input_, Interval(0.0));
-    place->second += Interval(sign * pattern.monomial.order);
+    add_component(angle, frame.angle_input_, Interval(sign * pattern.monomial.order));
   }
   angle.constant += Interval(0.5 * pattern.quarters) * rigor::pi();
   angle.is_modular = true;
@@ -68,7 +67,7 @@ FrameLine FrameRules::angle_line(Frame& frame, const WavePattern& pattern, int t
     return angle;
   }
   const Interval half_period = rigor::pi() / Interval(static_cast<double>(turns_per_period));
-  const Interval base = angle.constant + angle.per_frequency * frame.band_;
+  const Interval base = base_of(angle, frame.band_);
   const double periods = std::round(rigor::midpoint(base) / (2.0 * rigor::midpoint(half_period)));
   const Interval moved = Interval(2.0 * periods) * half_period;
   angle.constant -= moved;
@@ -325,7 +324,7 @@ FrameValue stays_within(const FrameValue& x, const FrameValue& low, const FrameV
   if (line.turns != 0 || line.is_modular) {
     throw NoFrame("a limit of an angle");
   }
-  const Interval base = line.constant + line.per_frequency * frame.band();
+  const Interval base = FrameRules::base_of(line, frame.band());
   const double above = (high.line().constant - base).lower();
   const double below = (base - low.line().constant).lower();
   FrameRules::add_limit(frame, FrameRules::add_form(frame, line), Interval(std::min(above, below)));

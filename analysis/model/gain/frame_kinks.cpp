@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "analysis/model/gain/frame_rules.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 
@@ -19,10 +21,6 @@ FrameLine plain_line(Frame& frame, const FrameValue& value) {
     throw NoFrame("a function with a kink, or a condition, of an angle or of what depends on the phase");
   }
   return line;
-}
-
-Interval middle_of(const Frame& frame, const FrameLine& line) {
-  return line.constant + line.per_frequency * frame.band();
 }
 
 /// The excess of a deviation of at most `bound` over `distance`.
@@ -41,11 +39,7 @@ void note_distance(Frame& frame, double distance) {
 
 FrameLine with_remainder(Frame& frame, FrameLine line, const char* what,
                          std::function<double(const std::vector<double>&)> size) {
-  FrameInput input;
-  input.is_remainder = true;
-  input.what = what;
-  input.at_bounds = std::move(size);
-  line.inputs[FrameRules::add_input(frame, std::move(input))] = Interval(1.0);
+  FrameRules::add_remainder(frame, line, what, std::move(size));
   return line;
 }
 
@@ -53,7 +47,7 @@ FrameLine with_remainder(Frame& frame, FrameLine line, const char* what,
 /// and half of |a - b|.
 FrameLine larger(Frame& frame, const FrameLine& a, const FrameLine& b, const char* what) {
   const FrameLine z = FrameRules::sum_of(a, b, true);
-  const Interval middle = middle_of(frame, z);
+  const Interval middle = FrameRules::base_of(z, frame.band());
   const bool is_first = rigor::certainly_positive(middle);
   const bool is_second = rigor::certainly_negative(middle);
   if (z.is_form_empty() && (is_first || is_second)) {
@@ -89,8 +83,8 @@ FrameLine inside(Frame& frame, const FrameLine& x, const FrameLine& low, const F
   constexpr const char* kWhat = "a clamp";
   const FrameLine below = FrameRules::sum_of(low, x, true);
   const FrameLine above = FrameRules::sum_of(x, high, true);
-  const Interval to_low = -middle_of(frame, below);
-  const Interval to_high = -middle_of(frame, above);
+  const Interval to_low = -FrameRules::base_of(below, frame.band());
+  const Interval to_high = -FrameRules::base_of(above, frame.band());
   if (rigor::certainly_positive(to_low) && rigor::certainly_positive(to_high)) {
     if (below.is_form_empty() && above.is_form_empty()) {
       return x;
@@ -101,9 +95,7 @@ FrameLine inside(Frame& frame, const FrameLine& x, const FrameLine& low, const F
     return with_remainder(
         frame, x, kWhat,
         [first, second, a = to_low.lower(), b = to_high.lower()](const std::vector<double>& bounds) {
-          const double low_side = beyond(bounds[first], a);
-          const double high_side = beyond(bounds[second], b);
-          return low_side >= high_side ? low_side : low_side < high_side ? high_side : NAN;
+          return larger_or_nan(beyond(bounds[first], a), beyond(bounds[second], b));
         });
   }
   if (!low.is_constant() || !high.is_constant() ||
@@ -119,7 +111,7 @@ FrameValue named_line(Frame& frame, FrameOperation operation, int first, int sec
 
 /// 1 or -1: that it stays so is a limit.
 int certain_sign(Frame& frame, const FrameLine& line) {
-  const Interval middle = middle_of(frame, line);
+  const Interval middle = FrameRules::base_of(line, frame.band());
   const bool is_positive = rigor::certainly_positive(middle);
   if (!is_positive && !rigor::certainly_negative(middle)) {
     throw NoFrame("the steady state is where a condition or a sign changes");

@@ -1,7 +1,9 @@
 // The rules by which values are combined: shared by the files of frame_value.hpp.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "analysis/model/gain/frame_value.hpp"
 
@@ -60,30 +62,47 @@ struct FrameRules {
   static bool as_waves(const FrameValue& value, Waves& waves);
   /// A linear value without turns as a factor of waves that turn with the signal; false for others.
   static bool as_factor(const FrameValue& value, const FrameValue& of, Waves& waves);
-  /// Whether all lengths in it are above 0, which is a limit from now on.
-  static bool keeps_positive(Frame& frame, const Monomial& monomial);
-  static FrameLine scaled_part(Frame& frame, const Monomial& monomial, int part);
   static void add_wave(Waves& waves, Monomial monomial, WaveWeights weights);
   static Waves product_of(const Waves& a, const Waves& b);
   static FrameLine sum_of(const FrameLine& a, const FrameLine& b, bool subtracts);
   static FrameLine scaled(const FrameLine& line, const rigor::Interval& factor, std::optional<double> exact);
 
-  // Remainders and noise (frame_nodes.cpp).
+  // Lines, and parts of the network (frame_nodes.cpp).
+  static void require_no_turns(const FrameLine& line);
+  /// The deviations alone.
+  static FrameLine form_of(const FrameLine& line);
+  /// The value in the steady state, but for its turns.
+  static rigor::Interval base_of(const FrameLine& line, const rigor::Interval& band);
+  static void add_component(FrameLine& line, int component, const rigor::Interval& weight);
   static int add_form(Frame& frame, const FrameLine& line);
   static int add_angle_form(Frame& frame, const FrameLine& line);
   static int add_input(Frame& frame, FrameInput input);
   static void add_limit(Frame& frame, int form, const rigor::Interval& room);
-  static void rest_at_kink(Frame& frame);
+  /// Adds an input of this size at bounds of the forms.
+  static void add_remainder(Frame& frame, FrameLine& line, const char* what,
+                            std::function<double(const std::vector<double>& bounds)> size);
+
+  // Waves and noise (frame_waves.cpp).
+  /// Whether all lengths in it are above 0, which is a limit from now on.
+  static bool keeps_positive(Frame& frame, const Monomial& monomial);
+  static FrameLine scaled_part(Frame& frame, const Monomial& monomial, int part);
   static FrameLine part_of_wave(Frame& frame, const Monomial& monomial, int part);
   static int form_of_phase(Frame& frame, const Monomial& monomial, const FrameLine& phase);
   static FrameLine line_of_waves(Frame& frame, const Waves& waves);
   static FrameLine phase_of(Frame& frame, const Monomial& monomial);
   static int disc(Frame& frame, const Monomial& monomial);
   static int ripple(Frame& frame, const Monomial& monomial, const FrameLine& phase);
+
+  // Products and functions (frame_functions.cpp).
   static FrameLine product_line(Frame& frame, const FrameLine& a, const FrameLine& b, bool is_square);
   static FrameLine function_line(Frame& frame, FrameOperation operation, const FrameLine& operand);
+
+  // Vectors (frame_polar.cpp).
   static FrameLine direction_line(Frame& frame, const FrameLine& y, const FrameLine& x);
   static FrameLine length_line(Frame& frame, const FrameLine& y, const FrameLine& x);
+
+  // Kinks (frame_kinks.cpp).
+  static void rest_at_kink(Frame& frame);
 
   // Angles, and division (frame_angles.cpp).
   static void keep_angle(Frame& frame, int name, const FrameLine& line);

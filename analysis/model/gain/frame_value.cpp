@@ -218,10 +218,7 @@ FrameLine FrameRules::sum_of(const FrameLine& a, const FrameLine& b, bool subtra
     }
   }
   for (const auto& [component, weight] : second.inputs) {
-    const auto [place, is_new] = sum.inputs.try_emplace(component, weight);
-    if (!is_new) {
-      place->second += weight;
-    }
+    add_component(sum, component, weight);
   }
   return sum;
 }

@@ -3,10 +3,13 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/rigor/larger_or_nan.hpp"
+
 namespace veritrack::model {
 
 using rigor::BallModel;
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 

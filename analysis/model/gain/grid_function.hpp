@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -22,11 +21,6 @@ struct GridFunction {
   /// Suprema of half of its change over the part, and of the differences of that along the phase.
   std::vector<double> lean, lean_difference;
 };
-
-/// The larger one; NaN where one of them is.
-[[nodiscard]] inline double larger_or_nan(double a, double b) {
-  return a >= b ? a : a < b ? b : NAN;
-}
 
 /// The model of a component over a cell of phases: s goes from one point of the grid to the next.
 using ModelAt = std::function<const rigor::BallModel&(std::size_t cell, std::size_t component)>;

@@ -6,10 +6,12 @@
 
 #include "analysis/model/gain/upward_parts.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 void PhaseErrors::join(const PhaseErrors& other) {
   for_ever = larger_or_nan(for_ever, other.for_ever);

@@ -5,8 +5,11 @@
 
 #include "analysis/model/gain/phase_gains.hpp"
 #include "analysis/model/gain/upward_parts.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
+
+using rigor::larger_or_nan;
 
 std::vector<double> PhaseGains::sizes(const PhasePart& part, double noise, const std::vector<double>& bounds,
                                       std::size_t phase) const {

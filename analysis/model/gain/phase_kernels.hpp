@@ -116,6 +116,8 @@ class PhaseKernels {
   void add_knot(const Vector& size, const Vector& lean);
   /// That of the part, at one of its ends.
   [[nodiscard]] Vector end_matrix(std::size_t end) const;
+  /// Of two matrices of the states, row by row.
+  [[nodiscard]] Vector product_of(const Vector& a, const Vector& b) const;
   void add_late_sums();
   class LagSums;
 

@@ -6,10 +6,12 @@
 
 #include "analysis/model/gain/phase_kernels.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 
@@ -140,6 +142,25 @@ void PhaseKernels::widen(const std::vector<PhasePart>& parts, std::size_t index,
   neighbours.reach = reach;
 }
 
+std::vector<double> PhaseKernels::end_matrix(std::size_t end) const {
+  Vector matrix = part_->middle;
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    matrix[i] += end == 0 ? -part_->lean[i] : part_->lean[i];
+  }
+  return matrix;
+}
+
+std::vector<double> PhaseKernels::product_of(const Vector& a, const Vector& b) const {
+  const std::size_t n = states_;
+  Vector result(n * n, 0.0);
+  for (std::size_t i = 0; i < n * n; ++i) {
+    for (std::size_t m = 0; m < n; ++m) {
+      result[i] += a[i / n * n + m] * b[m * n + i % n];
+    }
+  }
+  return result;
+}
+
 double PhaseKernels::size_of_power(std::size_t lag, std::size_t entry) const {
   const std::size_t at = lag * states_ * states_ + entry;
   return larger_or_nan(std::fabs(powers_[0][at]), std::fabs(powers_[1][at]));
@@ -223,21 +244,15 @@ void PhaseKernels::find_lags(const std::vector<PhasePart>& parts, std::size_t in
   }
   widen(parts, index, 0, neighbours);
   for (const std::size_t end : {0U, 1U}) {
-    const double sign = end == 0 ? -1.0 : 1.0;
-    Vector& powers = powers_[end];
-    powers.assign((horizon_ + (late_blocks_ > 0 ? 1 : 0)) * n * n, 0.0);
+    const Vector matrix = end_matrix(end);
+    Vector power(n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-      powers[i * n + i] = 1.0;
+      power[i * n + i] = 1.0;
     }
-    for (std::size_t k = 0; (k + 1) * n * n < powers.size(); ++k) {
-      const double* power = powers.data() + k * n * n;
-      double* next = powers.data() + (k + 1) * n * n;
-      for (std::size_t i = 0; i < n * n; ++i) {
-        for (std::size_t m = 0; m < n; ++m) {
-          const std::size_t at = m * n + i % n;
-          next[i] += power[i / n * n + m] * (part_->middle[at] + sign * part_->lean[at]);
-        }
-      }
+    powers_[end] = power;
+    for (std::size_t k = 1; k < horizon_ + (late_blocks_ > 0 ? 1 : 0); ++k) {
+      power = product_of(power, matrix);
+      powers_[end].insert(powers_[end].end(), power.begin(), power.end());
     }
   }
   for (std::size_t k = 0; k < horizon_; ++k) {

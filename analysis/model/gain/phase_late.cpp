@@ -5,25 +5,16 @@
 
 #include "analysis/model/gain/phase_kernels.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 
 using Vector = std::vector<double>;
-
-/// The product of two n x n matrices, row by row.
-Vector times(const Vector& a, const Vector& matrix, std::size_t n) {
-  Vector result(n * n, 0.0);
-  for (std::size_t i = 0; i < n * n; ++i) {
-    for (std::size_t m = 0; m < n; ++m) {
-      result[i] += a[i / n * n + m] * matrix[m * n + i % n];
-    }
-  }
-  return result;
-}
 
 /// The largest sum of a hat of half width N over points a turn apart, where N is `turns` of them.
 double sum_of_hats(double turns) {
@@ -139,18 +130,10 @@ PhaseKernels::LateBlock PhaseKernels::late_block(std::size_t block, std::array<V
           larger_or_nan(of.lean[i], 0.5 * rigor::magnitude(Interval(power[1][i]) - Interval(power[0][i])));
     }
     for (const std::size_t end : {0U, 1U}) {
-      power[end] = times(power[end], matrices[end], n);
+      power[end] = product_of(power[end], matrices[end]);
     }
   }
   return of;
-}
-
-std::vector<double> PhaseKernels::end_matrix(std::size_t end) const {
-  Vector matrix = part_->middle;
-  for (std::size_t i = 0; i < matrix.size(); ++i) {
-    matrix[i] += end == 0 ? -part_->lean[i] : part_->lean[i];
-  }
-  return matrix;
 }
 
 void PhaseKernels::add_late_block(const LateBlock& of, bool is_last) {
@@ -206,7 +189,7 @@ void PhaseKernels::find_late() {
     power[end].assign(powers_[end].end() - static_cast<std::ptrdiff_t>(n * n), powers_[end].end());
     knots_[end] = {power[end]};
     for (std::size_t k = 1; k <= late_blocks_ * late_every_; ++k) {
-      power[end] = times(power[end], matrix, n);
+      power[end] = product_of(power[end], matrix);
       if (k % late_every_ == 0) {
         knots_[end].push_back(power[end]);
       }

@@ -5,11 +5,13 @@
 #include <complex>
 
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
 using rigor::BallModel;
 using rigor::Interval;
+using rigor::larger_or_nan;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/rigor/larger_or_nan.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_matrix.hpp"
 
@@ -216,7 +217,7 @@ double frequency_error_at(const TrackedTone& tone, const CurveFit& fit, double z
   for (int j = 0; j < grid.size(); ++j) {
     const double here =
         std::fabs(tone.step.frequency_gradient(state_at(curve, grid.phase(j))).dot(change.col(j)));
-    error = here <= error ? error : here;  // NaN stays
+    error = rigor::larger_or_nan(error, here);
   }
   return std::isfinite(error) ? error : INFINITY;
 }

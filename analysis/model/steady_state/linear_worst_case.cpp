@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/model/steady_state/curve_fit.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -53,8 +54,8 @@ class Orbit {
              std::fabs(row.dot(of_amplitude_[step]));
       row = (row * states_[step]).eval();
     }
-    worst.undisturbed = std::max(worst.undisturbed, error);
-    worst.disturbed = sum <= worst.disturbed ? worst.disturbed : sum;  // NaN stays
+    worst.undisturbed = rigor::larger_or_nan(worst.undisturbed, error);
+    worst.disturbed = rigor::larger_or_nan(worst.disturbed, sum);
   }
 
  private:

@@ -14,6 +14,7 @@
 
 #include "analysis/model/step/tube_models.hpp"
 #include "analysis/rigor/ball_model.hpp"
+#include "analysis/rigor/larger_or_nan.hpp"
 
 namespace veritrack::model {
 
@@ -215,7 +216,7 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
     result.mean = first == 0 ? mean : hull(result.mean, mean);
     const double ripple = ripple_of(std::span(cells).subspan(first, phases),
                                     [&](std::size_t place) { return parts_of(first + place); });
-    result.ripple = result.ripple >= ripple ? result.ripple : ripple;  // NaN stays
+    result.ripple = rigor::larger_or_nan(result.ripple, ripple);
     const TubeCell place = cell_of(grid, first);
     result.slices.push_back({tube.frequency + tube.half_width * (place.z - place.half_z),
                              tube.frequency + tube.half_width * (place.z + place.half_z), mean, ripple});
@@ -289,7 +290,7 @@ double bound_start(const TrackerModel& model, const Tube& tube, const std::vecto
       }
       const Interval range = sum.range();
       const double length =
-          rigor::is_empty(range) ? kInfinity : sqrt(Interval(std::max(range.upper(), 0.0))).upper();
+          rigor::is_finite(range) ? sqrt(Interval(std::max(range.upper(), 0.0))).upper() : kInfinity;
       level = std::max(level, length);
     }
     levels[number] = level;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/rigor/larger_or_nan.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_matrix.hpp"
 #include "analysis/rigor/symmetric_eigensystem.hpp"
@@ -146,7 +147,7 @@ class Attacker {
       tracker.step(std::cos(phase) + input[0] * c - input[1] * s,
                    std::sin(phase) + input[0] * s + input[1] * c);
       const double now = std::abs(tracker.filtered().frequency - frequency);
-      largest = now <= largest ? largest : now;  // a NaN is kept
+      largest = rigor::larger_or_nan(largest, now);
     }
     return largest;
   }

@@ -1,7 +1,8 @@
 #include "analysis/quadrature/gaussian/level_proposal.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <limits>
+#include <Eigen/LU>
+
+#include "analysis/rigor/symmetric_three.hpp"
 
 namespace veritrack::quadrature {
 
@@ -21,11 +22,8 @@ struct Largest {
   Eigen::Vector3d vector;
 };
 Largest largest(const Matrix& x, const Matrix& y) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(x, y);
-  if (solver.info() != Eigen::Success) {
-    return {std::numeric_limits<double>::quiet_NaN(), Eigen::Vector3d::Zero()};
-  }
-  return {solver.eigenvalues()[2], solver.eigenvectors().col(2)};
+  const rigor::ThreeEigensystem system = rigor::pencil_of_three(x, y);
+  return {system.values[2], system.vectors.col(2)};
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "analysis/quadrature/leak/steady_samples.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "analysis/quadrature/leak/steady_cautious_rate.hpp"
 #include "analysis/quadrature/leak/steady_rate.hpp"
 #include "analysis/quadrature/leak/steady_setting.hpp"
+#include "analysis/rigor/symmetric_three.hpp"
 
 namespace veritrack::quadrature {
 
@@ -23,13 +22,14 @@ Symmetric<double> symmetric(const Matrix<3>& m) {
   return Symmetric<double>::from_matrix(m);
 }
 
-/// The largest x with x a + b singular: the smallest x such that x a + b >= 0.
-double smallest_share(const Eigen::LLT<Matrix<3>>& a, const Matrix<3>& b) {
-  const Matrix<3> half = a.matrixL().solve(b);
-  const Matrix<3> whole = a.matrixL().solve(half.transpose());
-  Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen;
-  eigen.computeDirect(whole, Eigen::EigenvaluesOnly);
-  return -eigen.eigenvalues()[0];
+/// L with L L' = S; NaN where S is not positive definite: then no sample makes sense.
+Matrix<3> root_of(const Matrix<3>& s) {
+  return rigor::cholesky_of_three(s).value_or(Matrix<3>::Constant(std::numeric_limits<double>::quiet_NaN()));
+}
+
+/// The largest x with x a + b singular, a = L L': the smallest x such that x a + b >= 0.
+double smallest_share(const Matrix<3>& l, const Matrix<3>& b) {
+  return -rigor::least_eigenvalue_in_units(l, b);
 }
 
 struct Sample {
@@ -55,11 +55,10 @@ Sample sample_at(const SteadySetting<double>& setting, const SteadyPlace<double>
 
 /// bound + the positive part of (x - bound).
 void grow(Matrix<3>& bound, const Matrix<3>& x) {
-  Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen;
-  eigen.computeDirect(x - bound);
+  const rigor::ThreeEigensystem system = rigor::eigensystem_of_three(x - bound);
   for (int i = 0; i < 3; ++i) {
-    if (eigen.eigenvalues()[i] > 0.0) {
-      bound += eigen.eigenvalues()[i] * eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
+    if (system.values[i] > 0.0) {
+      bound += system.values[i] * system.vectors.col(i) * system.vectors.col(i).transpose();
     }
   }
 }
@@ -69,7 +68,7 @@ void grow(Matrix<3>& bound, const Matrix<3>& x) {
 SteadySamples::SteadySamples(const SteadyRequest& request, SteadyJudgement judgement)
     : request_(request), judgement_(judgement) {
   const auto& middle = request.steady[request.steady.size() / 2].covariance;
-  root_ = Eigen::LLT<Matrix<3>>(middle.matrix()).matrixL();
+  root_ = root_of(middle.matrix());
   inverse_root_ = root_.inverse();
 }
 
@@ -77,7 +76,7 @@ rigor::Matrix<3> SteadySamples::metric(const Eigen::VectorXd& x) const {
   Matrix<3> change;
   change << std::exp(x[0]), x[3], x[4], 0.0, 1.0, x[2], 0.0, 0.0, std::exp(x[1]);
   const Matrix<3> information = request_.steady.back().covariance.matrix().inverse();
-  const Matrix<3> base = Eigen::LLT<Matrix<3>>(information).matrixU();
+  const Matrix<3> base = root_of(information).transpose();
   return change * base;
 }
 
@@ -131,7 +130,7 @@ bool SteadySamples::find_band(std::vector<SteadySetting<double>>& settings, doub
     setting.band = {symmetric(root_ * below * root_.transpose()),
                     symmetric(root_ * above * root_.transpose())};
     const Matrix<3> least = setting.steady.covariance.matrix() - setting.band.below.matrix();
-    if (Eigen::LLT<Matrix<3>>(least).info() != Eigen::Success) {
+    if (!rigor::cholesky_of_three(least)) {
       return false;
     }
   }
@@ -156,14 +155,16 @@ double SteadySamples::rate(const std::vector<SteadySetting<double>>& settings, d
         }
       }
     }
-    const Eigen::LLT<Matrix<3>> below(setting.band.below.matrix());
-    const Eigen::LLT<Matrix<3>> above(setting.band.above.matrix());
-    const double motion =
-        covariance_motion(setting.band.below.matrix(), setting.band.above.matrix(), k) / level;
+    const auto below = rigor::cholesky_of_three(setting.band.below.matrix());
+    const auto above = rigor::cholesky_of_three(setting.band.above.matrix());
+    if (!below || !above) {
+      return kInfinity;
+    }
+    const double motion = covariance_motion(*below, *above, k) / level;
     const bool fine =
         for_each_image(setting, level, noise, angles, [&](const Matrix<3>& low, const Matrix<3>& high) {
           worst =
-              std::max({worst, smallest_share(above, -high) + motion, smallest_share(below, low) + motion});
+              std::max({worst, smallest_share(*above, -high) + motion, smallest_share(*below, low) + motion});
         });
     if (!fine) {
       return kInfinity;
@@ -221,13 +222,10 @@ double SteadySamples::motion_of(const SteadySetting<double>& setting, std::size_
                     t.t33 * frequency);
 }
 
-double SteadySamples::covariance_motion(const Matrix<3>& below_bound, const Matrix<3>& above_bound,
-                                        std::size_t k) const {
+double SteadySamples::covariance_motion(const Matrix<3>& below, const Matrix<3>& above, std::size_t k) const {
   if (!(request_.slew > 0.0) || request_.slopes.empty()) {
     return 0.0;
   }
-  const Eigen::LLT<Matrix<3>> below(below_bound);
-  const Eigen::LLT<Matrix<3>> above(above_bound);
   const auto& x = request_.slopes[k];
   Matrix<3> slope;
   slope << x[3], x[4], x[5], x[4], x[6], x[7], x[5], x[7], x[8];

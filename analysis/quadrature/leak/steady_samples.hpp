@@ -32,8 +32,9 @@ class SteadySamples {
  private:
   [[nodiscard]] rigor::Matrix<3> enter(const rigor::Matrix<3>& p) const;
   [[nodiscard]] double motion_of(const SteadySetting<double>& setting, std::size_t k) const;
-  [[nodiscard]] double covariance_motion(const rigor::Matrix<3>& below_bound,
-                                         const rigor::Matrix<3>& above_bound, std::size_t k) const;
+  /// From the roots of the bounds of the band.
+  [[nodiscard]] double covariance_motion(const rigor::Matrix<3>& below, const rigor::Matrix<3>& above,
+                                         std::size_t k) const;
 
   /// The share of the level that the errors fill after a step from there; nothing when it makes no sense.
   [[nodiscard]] std::optional<double> error_share(const SteadySetting<double>& setting,

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace veritrack::linear {
@@ -46,6 +47,21 @@ TEST_CASE("a pair of modes: damping and frequency of the continuous one") {
   CHECK(modes[0].damping == doctest::Approx(zeta));
   CHECK(modes[0].frequency == doctest::Approx(omega));
   CHECK(modes[0].time_constant == doctest::Approx(1.0 / (zeta * omega)));
+}
+
+TEST_CASE("the mode of a multiplier: at once, growing, and at rest") {
+  const LoopMode quick = mode_of(0.0);
+  CHECK(quick.time_constant == 0.0);
+  CHECK(quick.damping == 1.0);
+  const LoopMode pair = mode_of(std::polar(0.9, 0.3));
+  CHECK(pair.multiplier == std::polar(0.9, 0.3));
+  CHECK(pair.time_constant == doctest::Approx(-1.0 / std::log(0.9)));
+  CHECK(pair.damping == doctest::Approx(-std::log(0.9) / std::hypot(std::log(0.9), 0.3)));
+  CHECK(mode_of(std::polar(0.9, -0.3)).damping == doctest::Approx(pair.damping));
+  CHECK(mode_of(std::polar(1.1, 0.3)).damping < 0.0);
+  CHECK(mode_of(std::polar(1.1, 0.3)).time_constant < 0.0);
+  CHECK(mode_of(1.0).damping == 0.0);
+  CHECK(std::isinf(mode_of(1.0).time_constant));
 }
 
 }  // namespace

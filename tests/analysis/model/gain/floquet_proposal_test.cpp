@@ -50,6 +50,21 @@ Eigen::MatrixXd matrix_of(const FloquetCell& cell, double frequency) {
   return matrix;
 }
 
+TEST_CASE("multipliers of a cell are those in the middle of its frequencies, the largest first") {
+  FloquetCell cell;
+  cell.curve.curve.resize(3);
+  // A mode of 0.5, and a pair of 0.8 +- 0.3i; what goes with the frequency does not matter.
+  for (const double entry : {0.5, 0.0, 0.0, 7.0, 0.8, -0.3, 0.0, 0.3, 0.8}) {
+    cell.matrix.push_back({entry, 100.0});
+  }
+  const std::vector<std::complex<double>> multipliers = floquet_multipliers(cell);
+  REQUIRE(multipliers.size() == 3);
+  const std::vector<std::complex<double>> expected{{0.8, 0.3}, {0.8, -0.3}, {0.5, 0.0}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(std::abs(multipliers[i] - expected[i]) < 1e-12);
+  }
+}
+
 TEST_CASE("a lag has the curve of its transfer function, and the multiplier of its pole") {
   constexpr double kPole = 0.9;
   const test::ExampleTracker lag = first_order_lag(kPole);

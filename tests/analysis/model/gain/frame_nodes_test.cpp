@@ -1,138 +1,71 @@
-// Sizes of discs and remainders in the frame of the signal, against the largest values on fine grids.
+// The parts of the network that formulas add to a frame.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <functional>
-#include <numbers>
-#include <vector>
-
-#include "analysis/model/gain/frame_value.hpp"
+#include "analysis/model/gain/frame_rules.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
-namespace {
 
 using rigor::Interval;
-using Complex = std::complex<double>;
 
-/// A frame with an angle that is that of the samples, and both samples turned back by it.
-struct TurnedFrame {
-  explicit TurnedFrame(const Interval& amplitude) : frame(amplitude, Interval::from_bounds(0.2, 0.3), 1) {}
-
-  Frame frame;
-  FrameValue theta = frame.state(0, true, 1, 0.0, 1.0);
-  FrameValue y1 = frame.sample(0), y2 = frame.sample(1);
-  FrameValue in_phase = y1 * cos(theta) + y2 * sin(theta);
-  FrameValue quadrature = y2 * cos(theta) - y1 * sin(theta);
-  FrameValue length = sqrt(y1 * y1 + y2 * y2);
-};
-
-/// The size of the only disc of noise in this value.
-double disc_of(const std::function<FrameValue(TurnedFrame&)>& formula, const Interval& amplitude,
-               double noise) {
-  TurnedFrame turned(amplitude);
-  (void)turned.frame.line_of(formula(turned));
-  double size = NAN;
-  int discs = 0;
-  for (const FrameInput& each : turned.frame.inputs()) {
-    if (!each.is_remainder) {
-      size = each.at_noise(noise);
-      ++discs;
-    }
-  }
-  CHECK(discs == 1);
-  return size;
-}
-
-/// The largest distance of |y|^s e^(i m arg y) from A^s, y = A + v, |v| <= noise.
-double farthest(int s, int m, const Interval& amplitudes, double noise) {
-  double most = 0.0;
-  for (const double amplitude : {amplitudes.lower(), rigor::midpoint(amplitudes), amplitudes.upper()}) {
-    for (int i = 0; i < 720; ++i) {
-      for (const double share : {0.5, 0.9, 1.0}) {
-        const Complex y = amplitude + std::polar(share * noise, std::numbers::pi * i / 360.0);
-        const Complex value = std::pow(std::abs(y), s) * std::polar(1.0, m * std::arg(y));
-        most = std::max(most, std::abs(value - std::pow(amplitude, s)));
-      }
-    }
-  }
-  return most;
-}
-
-void check_disc(const std::function<FrameValue(TurnedFrame&)>& formula, int s, int m, double loose) {
-  CAPTURE(s);
-  CAPTURE(m);
-  for (const Interval& amplitude : {Interval(1.1), Interval::from_bounds(0.8, 1.2)}) {
-    for (const double noise : {0.01, 0.2, 0.5, 0.79}) {
-      CAPTURE(noise);
-      const double size = disc_of(formula, amplitude, noise);
-      const double least = farthest(s, m, amplitude, noise);
-      CHECK(size >= least * (1.0 - 1e-12));
-      if (noise < 0.3 && rigor::width(amplitude) == 0.0) {
-        CHECK(size <= loose * least);
-      }
-    }
-  }
-}
-
-/// The size of the last remainder of a function of 0.5 + its deviation, and its largest value.
-void check_remainder(const std::function<FrameValue(const FrameValue&)>& function,
-                     const std::function<double(double)>& value, const std::function<double(double)>& slope) {
-  constexpr double kBase = 0.5;
-  for (const double bound : {0.01, 0.1, 0.3}) {
-    Frame frame(Interval(1.0), Interval(0.25), 1);
-    const FrameValue x = frame.state(0, false, 0, 0.0, 2.0);  // 0.5 at this frequency
-    (void)frame.line_of(function(x));
-    REQUIRE(frame.inputs().size() == 1);
-    const double size = frame.inputs()[0].at_bounds(std::vector<double>(frame.forms().size(), bound));
-    double most = 0.0;
-    for (int i = -1000; i <= 1000; ++i) {
-      const double d = bound * i / 1000.0;
-      most = std::max(most, std::fabs(value(kBase + d) - value(kBase) - slope(kBase) * d));
-    }
-    CHECK(size >= most * (1.0 - 1e-9));
-    CHECK(size <= 1.06 * most);
-    CHECK_FALSE(frame.inputs()[0].at_bounds(std::vector<double>(frame.forms().size(), INFINITY)) < INFINITY);
-  }
-}
-
-}  // namespace
-
-TEST_CASE("discs of noise are as large as noise makes what is in them") {
+TEST_CASE("a value that is used twice is one node, and components are numbered as inputs arise") {
   const rigor::UpwardRounding upward;
-  check_disc([](TurnedFrame& of) { return of.quadrature; }, 1, 1, 1.000001);
-  check_disc([](TurnedFrame& of) { return of.in_phase * of.quadrature; }, 2, 2, 1.000001);
-  check_disc([](TurnedFrame& of) { return of.y1 * of.y1 + of.y2 * of.y2; }, 2, 0, 1.000001);
-  check_disc([](TurnedFrame& of) { return of.quadrature / of.length; }, 0, 1, 2.5);
-  check_disc([](TurnedFrame& of) { return of.in_phase * of.quadrature / of.length; }, 1, 2, 2.5);
-  check_disc([](TurnedFrame& of) { return of.quadrature * of.length; }, 2, 1, 2.5);
-  check_disc([](TurnedFrame& of) { return of.quadrature / of.length / of.length; }, -1, 1, 2.5);
-  CHECK_FALSE(disc_of([](TurnedFrame& of) { return of.quadrature / of.length; }, Interval(0.8), 0.8) <
-              INFINITY);
+  Frame frame(Interval(1.25), Interval::from_bounds(0.2, 0.3), 1);
+  const FrameValue theta = frame.state(0, true, 1, 0.0, 1.0);
+  const FrameValue y1 = frame.sample(0);
+  const FrameValue y2 = frame.sample(1);
+  const FrameValue in_phase = y1 * cos(theta) + y2 * sin(theta);
+  const FrameLine first = frame.line_of(in_phase);
+  const std::size_t inputs = frame.inputs().size();
+  const std::size_t forms = frame.forms().size();
+  const FrameLine second = frame.line_of(in_phase);
+  CHECK(frame.inputs().size() == inputs);
+  CHECK(frame.forms().size() == forms);
+  CHECK(first.inputs.size() == second.inputs.size());
+  (void)frame.line_of(in_phase * in_phase);
+  int components = 0;
+  for (const FrameInput& each : frame.inputs()) {
+    CHECK(each.first == components);
+    components += each.components;
+  }
+  CHECK(frame.inputs().size() > inputs);
 }
 
-TEST_CASE("remainders of functions are as large as what they stand for") {
+TEST_CASE("weights of a component that is added twice add up, and a form has no steady value") {
   const rigor::UpwardRounding upward;
-  check_remainder([](const auto& x) { return exp(x); }, [](double x) { return std::exp(x); },
-                  [](double x) { return std::exp(x); });
-  check_remainder([](const auto& x) { return log(x); }, [](double x) { return std::log(x); },
-                  [](double x) { return 1.0 / x; });
-  check_remainder([](const auto& x) { return sqrt(x); }, [](double x) { return std::sqrt(x); },
-                  [](double x) { return 0.5 / std::sqrt(x); });
-  check_remainder([](const auto& x) { return FrameValue(1) / x; }, [](double x) { return 1.0 / x; },
-                  [](double x) { return -1.0 / (x * x); });
-  check_remainder([](const auto& x) { return asin(x); }, [](double x) { return std::asin(x); },
-                  [](double x) { return 1.0 / std::sqrt(1.0 - x * x); });
-  check_remainder([](const auto& x) { return acos(x); }, [](double x) { return std::acos(x); },
-                  [](double x) { return -1.0 / std::sqrt(1.0 - x * x); });
-  check_remainder([](const auto& x) { return x * x; }, [](double x) { return x * x; },
-                  [](double x) { return 2.0 * x; });
-  check_remainder([](const auto& x) { return sin(x); }, [](double x) { return std::sin(x); },
-                  [](double x) { return std::cos(x); });
-  check_remainder([](const auto& x) { return cos(x); }, [](double x) { return std::cos(x); },
-                  [](double x) { return -std::sin(x); });
+  FrameLine line;
+  line.constant = Interval(2.0);
+  line.per_frequency = Interval(4.0);
+  FrameRules::add_component(line, 3, Interval(0.5));
+  FrameRules::add_component(line, 3, Interval(0.25));
+  FrameRules::add_component(line, 1, Interval(-1.0));
+  CHECK(line.inputs.at(3) == Interval(0.75));
+  CHECK(line.inputs.at(1) == Interval(-1.0));
+  CHECK(FrameRules::base_of(line, Interval(0.25)) == Interval(3.0));
+  const FrameLine form = FrameRules::form_of(line);
+  CHECK(form.inputs.size() == 2);
+  CHECK(FrameRules::base_of(form, Interval(0.25)) == Interval(0.0));
+  CHECK_NOTHROW(FrameRules::require_no_turns(line));
+  line.turns = 1;
+  CHECK_THROWS_AS(FrameRules::require_no_turns(line), NoFrame);
+  line.turns = 0;
+  line.is_modular = true;
+  CHECK_THROWS_AS(FrameRules::require_no_turns(line), NoFrame);
+}
+
+TEST_CASE("a limit has the room that is left, and one without room is refused") {
+  const rigor::UpwardRounding upward;
+  Frame frame(Interval(1.0), Interval(0.25), 1);
+  const FrameValue x = frame.state(0, false, 0, 0.5, 0.0);
+  const int form = FrameRules::add_form(frame, frame.line_of(x));
+  FrameRules::add_limit(frame, form, Interval::from_bounds(0.25, 0.5));
+  REQUIRE(frame.limits().size() == 1);
+  CHECK(frame.limits().front().form == form);
+  CHECK(frame.limits().front().room == 0.25);
+  for (const Interval& room :
+       {Interval(0.0), Interval::from_bounds(0.0, 1.0), Interval(-1.0), Interval::empty()}) {
+    CHECK_THROWS_AS(FrameRules::add_limit(frame, form, room), NoFrame);
+  }
 }
 
 }  // namespace veritrack::model

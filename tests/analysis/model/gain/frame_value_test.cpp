@@ -125,39 +125,6 @@ TEST_CASE("every formula stays within its line, its noise and its remainders") {
   check([](const auto& v) { return atan2(v.l * v.w, v.w - v.k); }, 0.05, 0.0);
 }
 
-TEST_CASE("the remainder of an arc tangent of two values is what is reached, and none is known at the cut") {
-  const rigor::UpwardRounding upward;
-  const auto remainder_of = [](const auto& formula, double along, double across) {
-    Setting setting;
-    (void)setting.frame.line_of(formula(setting.values));
-    const FrameInput& input = setting.frame.inputs().back();
-    REQUIRE(input.what == "atan2");
-    std::vector<double> bounds(setting.frame.forms().size(), 0.0);
-    bounds.end()[-2] = along;
-    bounds.end()[-1] = across;
-    return input.at_bounds(bounds);
-  };
-  const auto forward = [](const auto& v) { return atan2(v.w - v.w + v.w * v.k, v.l); };
-  const auto backward = [](const auto& v) { return atan2(v.w, -v.k); };
-  for (const auto& [along, across] : {std::pair(0.3, 0.1), {0.3, 0.9}, {0.0, 2.0}, {0.7, 0.2}, {0.9, 5.0}}) {
-    double reached = 0.0;
-    for (int i = -200; i <= 200; ++i) {
-      for (int j = 0; j <= 200; ++j) {
-        const double v = across * j / 200.0;
-        reached = std::max(reached, std::fabs(atan2(v, 1.0 + along * i / 200.0) - v));
-      }
-    }
-    CHECK(remainder_of(forward, along, across) >= reached);
-    CHECK(remainder_of(forward, along, across) <= 1.001 * reached);
-  }
-  CHECK(std::isinf(remainder_of(forward, 1.0, 0.1)));
-  CHECK(std::isinf(remainder_of(forward, NAN, 0.1)));
-  CHECK(std::isinf(remainder_of(forward, 0.1, NAN)));
-  // The steady direction is 0.93 rad from the cut.
-  CHECK(std::isfinite(remainder_of(backward, 0.3, 0.92)));
-  CHECK(std::isinf(remainder_of(backward, 0.3, 0.94)));
-}
-
 // Of numbers, and of values by argument-dependent lookup.
 using trackers::detail::minimum, trackers::detail::maximum, trackers::detail::absolute,
     trackers::detail::sign_of, trackers::detail::clamped, trackers::detail::chosen;

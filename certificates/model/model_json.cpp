@@ -219,7 +219,7 @@ Json gains_json(const model::GainProof& proof) {
     if (proof.rounding) {
       json["rounding"] = Json::array();
       for (const double room : proof.rounding->room) {
-        json["rounding"].push_back(std::isfinite(room) ? Json(rigor::to_hexadecimal(room)) : Json(nullptr));
+        json["rounding"].push_back(rigor::to_hexadecimal(std::isfinite(room) ? room : 0.0));  // 0 of angles
       }
     }
   }

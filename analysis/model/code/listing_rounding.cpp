@@ -59,8 +59,11 @@ class Evaluation {
   [[nodiscard]] std::optional<StepRounding> all() {
     StepRounding result;
     for (const trackers::code::State& state : listing_->states) {
-      result.next.push_back(turns_.is_wrapped(state.next) ? wrapped(state.next).error
-                                                          : value(state.next).error);
+      const double error =
+          turns_.is_wrapped(state.next) ? wrapped(state.next).error : value(state.next).error;
+      // A start is rounded, too.
+      const Computed stored = rounded(at(state.input).format, known_.at(state.input).exact, 0.0);
+      result.next.push_back(std::max(error, stored.error));
     }
     result.frequency = value(listing_->frequency).error;
     const bool is_known =

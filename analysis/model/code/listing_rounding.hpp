@@ -15,8 +15,9 @@ namespace veritrack::model::code {
 /// Bounds on |computed - exact|, where the exact step begins with the states and samples that the program
 /// has.
 struct StepRounding {
-  std::vector<double> next;  ///< of the states; of an angle modulo whole turns
-  double frequency = 0.0;    ///< rad/sample
+  std::vector<double>
+      next;  ///< of the states; of an angle modulo whole turns; at least that of storing the state
+  double frequency = 0.0;  ///< rad/sample
 };
 
 /// The ranges of what goes into a step.

@@ -38,6 +38,7 @@ void add_rounding(LoopNetwork& network, const LoopRounding& rounding) {
   network.forms.pop_back();
   network.direct.pop_back();
   network.ripple.pop_back();
+  network.ripple_at_start.resize(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     linear::Row unit(n, Interval(0.0));
     unit[i] = Interval(1.0);
@@ -56,7 +57,9 @@ void add_rounding(LoopNetwork& network, const LoopRounding& rounding) {
     }
     network.forms.push_back(std::move(unit));
     network.direct.emplace_back();
-    network.ripple.push_back(network.ripple_at_start.empty() ? 0.0 : network.ripple_at_start[i]);
+    network.ripple.push_back(network.ripple_at_start[i]);
+    network.ripple_at_start[i] =
+        rigor::add_up(network.ripple_at_start[i], rounding.next[i]);  // the start is rounded
   }
   network.forms.push_back(error);
   network.direct.push_back(direct);

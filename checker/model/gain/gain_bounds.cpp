@@ -36,6 +36,9 @@ GainBounds::Given GainBounds::given(const Ball& noise, const Ball& slew,
       without_ripples[i] += ripple.of_state[i];
     }
   }
+  for (std::size_t i = 0; i < network_->rounding_of_start.size(); ++i) {
+    without_ripples[i] += network_->rounding_of_start[i];
+  }
   const std::optional<Table> of_start = kernels_.starts(without_ripples);
   if (!of_start) {
     result.is_known = false;
@@ -214,13 +217,14 @@ std::optional<GainErrors> GainBounds::errors(const Ball& noise, const Ball& slew
       }
     }
     if (is_kept) {
+      const Ball& rounding = network_->rounding_of_frequency;
       std::vector<double> error;
       for (const std::vector<double>& of_block : bounds) {
-        error.push_back(of_block[network_->error_form]);
+        error.push_back(upper(Ball(of_block[network_->error_form]) + rounding));
       }
       const std::vector<double> late = in_long_run(bounds.back(), known);
-      return GainErrors(error, late[network_->error_form], mean(late), upper(abs(network_->bias)),
-                        kernels_.block_length());
+      return GainErrors(error, upper(Ball(late[network_->error_form]) + rounding), mean(late) + rounding,
+                        upper(abs(network_->bias)), kernels_.block_length());
     }
     bounds = std::move(raised);
   }

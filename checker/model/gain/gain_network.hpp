@@ -78,6 +78,8 @@ struct GainNetwork {
   std::vector<long> turns;      ///< of the states in the steady state, of the phase
   std::vector<Ball> frequency;  ///< the row of the frequency
   Ball least_amplitude;         ///< noise must be below it
+  std::vector<Ball> rounding_of_start;  ///< by state; or empty
+  Ball rounding_of_frequency;   ///< what the program's frequency is off from that of its states
 
   [[nodiscard]] std::size_t states() const { return matrix.size(); }
   /// Whether the errors obey the matrix to first order. A ripple changes with them, at each phase otherwise.

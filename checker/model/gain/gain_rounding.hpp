@@ -1,0 +1,25 @@
+// A program's rounding as inputs of a loop about its steady state (docs/gain-proof.md, section 10).
+#pragma once
+
+#include <vector>
+
+#include "checker/model/gain/gain_network.hpp"
+
+namespace veritrack::checker {
+
+/// A program's rounding while its states stay within their room.
+struct GainRounding {
+  std::vector<Ball> room;  ///< by state: from the steady state; of angles 0, which have no limit
+  std::vector<Ball> next;  ///< by state: what a step is off
+  Ball frequency;          ///< what the reported frequency is off
+};
+
+/// The values of each state in its room at the frequencies of a band; of an angle nothing that is finite.
+std::vector<Ball> states_within(const std::vector<Ball>& room, const std::vector<SteadyState>& steady,
+                                const std::vector<bool>& is_angle, const Ball& lowest, const Ball& highest);
+
+/// Adds an input to each state, and the limits to their room. Throws NotCovered for vectors and in one
+/// channel.
+void add_rounding(const GainRounding& rounding, const std::vector<bool>& is_angle, GainNetwork& network);
+
+}  // namespace veritrack::checker

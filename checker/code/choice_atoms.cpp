@@ -81,7 +81,7 @@ bool ChoiceMatch::find_condition(int condition, std::vector<int>& waiting) {
     if (operation.is_bit() || match_->wraps_.tests_for_numbers(next)) {
       continue;
     }
-    if (operation.is("and") || operation.is("or") || operation.is("xor")) {
+    if (operation.is("and") || operation.is("or") || operation.is("xor") || operation.is("select")) {
       conditions.insert(conditions.end(), operation.operands.begin(), operation.operands.end());
     } else if (ordered_pair(operation)) {
       match_->compared_.insert(operation.operands.begin(), operation.operands.end());

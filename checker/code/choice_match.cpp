@@ -13,8 +13,8 @@ using ChoiceKind = FormulaStep::Kind;
 constexpr int kMostSteps = 20'000;
 constexpr int kDeepestChoice = 100;
 
-/// There are too many cases to decide, or they are nested too deeply: no rule shows anything.
-struct TooManyCases {};
+/// No rule decides: there are too many cases, they are nested too deeply, or a value may be undefined.
+struct NoCase {};
 
 }  // namespace
 
@@ -53,7 +53,7 @@ bool ChoiceMatch::Order::add(std::size_t a, std::size_t b, bool is_less) {
 void ChoiceMatch::count() {
   spend();
   if (++steps_ > kMostSteps) {
-    throw TooManyCases();
+    throw NoCase();
   }
 }
 
@@ -104,10 +104,15 @@ ChoiceMatch::Truths ChoiceMatch::of_condition(int condition, const Order& order)
     return of_comparison(*pair, order);
   }
   if (++depth_ > kDeepestChoice) {
-    throw TooManyCases();
+    throw NoCase();
   }
   Truths found;
   for (const auto& [with_first, first] : of_condition(operation.operands[0], order)) {
+    if (operation.is("select")) {
+      const Truths chosen = of_condition(operation.operands[first ? 1 : 2], with_first);
+      found.insert(found.end(), chosen.begin(), chosen.end());
+      continue;
+    }
     for (const auto& [with_both, second] : of_condition(operation.operands[1], with_first)) {
       found.emplace_back(with_both, operation.is("and")  ? first && second
                                     : operation.is("or") ? first || second
@@ -125,7 +130,7 @@ ChoiceMatch::Values ChoiceMatch::of_register(int place, const Order& order) {
     return {{order, of_place_.at(place)}};
   }
   if (++depth_ > kDeepestChoice) {
-    throw TooManyCases();
+    throw NoCase();
   }
   const ListedOperation& operation = match_->listing_->at(place);
   const bool selects = operation.is("select");
@@ -152,7 +157,7 @@ ChoiceMatch::Values ChoiceMatch::of_node(int node, const Order& order) {
     return {{order, of_node_.at(node)}};
   }
   if (++depth_ > kDeepestChoice) {
-    throw TooManyCases();
+    throw NoCase();
   }
   const std::vector<int>& arguments = formula.arguments;
   const std::vector<int>& sides =
@@ -212,17 +217,17 @@ void ChoiceMatch::add_absolute(const Order& order, std::size_t value, std::size_
   }
 }
 
-/// clamp(x, low, high) has a value where low <= high.
+/// clamp(x, low, high), where low <= high is known.
 void ChoiceMatch::add_clamp(const Order& order, std::pair<std::size_t, std::size_t> value_and_low, int upper,
                             Values& found) {
   const auto [value, low] = value_and_low;
   for (const auto& [with_high, high] : of_node(upper, order)) {
     count();
-    Order ordered = with_high;
-    Truths below;
-    if (ordered.add(low, high, false)) {
-      compare(ordered, value, low, Relation::at_most, false, below);
+    if (with_high.known[low * with_high.count + high] == 0) {
+      throw NoCase();
     }
+    Truths below;
+    compare(with_high, value, low, Relation::at_most, false, below);
     for (const auto& [where, is_below] : below) {
       Truths above;
       compare(where, high, value, Relation::at_most, false, above);
@@ -247,7 +252,7 @@ bool ChoiceMatch::is_same(int node, int place) {
       }
     }
     return true;
-  } catch (const TooManyCases&) {
+  } catch (const NoCase&) {
     return false;
   }
 }

@@ -12,7 +12,7 @@ namespace {
 
 using SumKind = FormulaStep::Kind;
 
-constexpr std::size_t kMostParts = 200;
+constexpr std::size_t kMostTerms = 200;
 
 /// Each of the places is that of one of the nodes.
 template <typename Node, typename Place, typename Same>
@@ -41,7 +41,7 @@ std::vector<ListingMatch::Signed> ListingMatch::terms_of_node(int node) const {
   std::vector<Signed> terms;
   std::vector<Signed> waiting{{node, false}};
   while (!waiting.empty()) {
-    if (terms.size() + waiting.size() > kMostParts) {
+    if (terms.size() + waiting.size() > kMostTerms) {
       return {};
     }
     const Signed next = waiting.back();
@@ -64,7 +64,7 @@ std::vector<ListingMatch::Signed> ListingMatch::terms_of_register(int place) con
   std::vector<Signed> terms;
   std::vector<Signed> waiting{{place, false}};
   while (!waiting.empty()) {
-    if (terms.size() + waiting.size() > kMostParts) {
+    if (terms.size() + waiting.size() > kMostTerms) {
       return {};
     }
     const Signed next = waiting.back();
@@ -87,7 +87,7 @@ ListingMatch::Factors ListingMatch::factors_of_node(int node) const {
   Factors factors;
   std::vector<int> waiting{node};
   while (!waiting.empty()) {
-    if (factors.above.size() + waiting.size() > kMostParts) {
+    if (factors.above.size() + waiting.size() > kMostTerms) {
       return {};
     }
     const int of = graph_->without_limits(waiting.back());
@@ -117,7 +117,7 @@ ListingMatch::Factors ListingMatch::factors_of_registers(std::vector<int> places
   std::vector<int>& waiting = places;
   std::reverse(waiting.begin(), waiting.end());
   while (!waiting.empty()) {
-    if (factors.above.size() + waiting.size() > kMostParts) {
+    if (factors.above.size() + waiting.size() > kMostTerms) {
       return {};
     }
     const int of = wraps_.plain(waiting.back());

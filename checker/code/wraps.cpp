@@ -14,7 +14,7 @@ namespace veritrack::checker {
 namespace {
 
 constexpr std::size_t kMostParts = 256;
-constexpr int kDeepest = 400;
+constexpr int kDeepestWrap = 400;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 bool is_whole_turns(double number) {
@@ -163,7 +163,7 @@ std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& pa
   if (place == base) {
     return Shifted{{part, 0.0}};
   }
-  if (depth > kDeepest || place < base) {
+  if (depth > kDeepestWrap || place < base) {
     return std::nullopt;
   }
   if (is_sum(operation)) {
@@ -197,7 +197,7 @@ std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& pa
 std::optional<Wraps::Decided> Wraps::decided(int condition, int base, const Part& part, int depth) const {
   spend();
   const ListedOperation& operation = listing_->at(condition);
-  if (depth > kDeepest) {
+  if (depth > kDeepestWrap) {
     return std::nullopt;
   }
   if (operation.is_bit()) {
@@ -209,7 +209,8 @@ std::optional<Wraps::Decided> Wraps::decided(int condition, int base, const Part
   if (const auto known = part.decided.find(condition); known != part.decided.end()) {
     return Decided{{part, known->second}};
   }
-  const bool is_joined = operation.is("and") || operation.is("or") || operation.is("xor");
+  const bool is_joined =
+      operation.is("and") || operation.is("or") || operation.is("xor") || operation.is("select");
   auto parts =
       is_joined ? joined(operation, base, part, depth + 1) : compared(condition, base, part, depth + 1);
   if (parts || is_joined || !ordered_pair(operation)) {
@@ -235,7 +236,8 @@ std::optional<Wraps::Decided> Wraps::joined(const ListedOperation& both, int bas
       all.emplace_back(where, holds);
       continue;
     }
-    const auto second = decided(both.operands[1], base, where, depth);
+    const std::size_t other = both.is("select") && !holds ? 2 : 1;
+    const auto second = decided(both.operands[other], base, where, depth);
     if (!second || all.size() > kMostParts) {
       return std::nullopt;
     }

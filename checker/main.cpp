@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -130,7 +131,8 @@ int run(const Options& options) {
   Verification found = verify(certificate, options.all_boxes);
   if (!options.design.empty()) {
     Objections objections;
-    compare_with_design_file(certificate, read_file(options.design), objections);
+    compare_with_design_file(certificate, read_file(options.design), objections,
+                             std::filesystem::path(options.design).parent_path());
     found.parts.push_back({"the design file", objections});
   }
   for (const std::string& document : options.documents) {

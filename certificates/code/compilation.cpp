@@ -99,6 +99,20 @@ void require_flags(const CodeTable& code, const fs::path& design_file) {
   }
 }
 
+/// Names stand in sentences, each once.
+void require_names(const CodeTable& code, const fs::path& design_file) {
+  constexpr std::string_view kInNames = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/+-";
+  for (auto file = code.files.begin(); file != code.files.end(); ++file) {
+    const bool is_twice = std::any_of(code.files.begin(), file,
+                                      [&](const SourceText& each) { return each.text == file->text; });
+    if (is_twice || file->text.find_first_not_of(kInNames) != std::string::npos) {
+      refuse(design_file, file->position,
+             fmt::format("the file {}{}; allowed: files, each once, with names of letters, digits and ._/+-",
+                         printable(file->text, 60), is_twice ? " a second time" : ""));
+    }
+  }
+}
+
 ProgramRun run(const std::string& program, const std::vector<std::string>& arguments,
                const fs::path& design_file, Position position,
                const std::vector<const MemoryFile*>& handed_over = {}) {
@@ -170,6 +184,7 @@ std::string beside(const char* name) {
 
 CompiledCode compiled(const CodeTable& code, const fs::path& design_file) {
   require_flags(code, design_file);
+  require_names(code, design_file);
   const fs::path folder = design_file.has_parent_path() ? design_file.parent_path() : fs::path(".");
   CompiledCode result;
   std::list<MemoryFile> modules;

@@ -581,6 +581,14 @@ class Writer {
     if (instruction.operation == Operation::bit_or) {
       return chosen_of(a, yes, [&] { return chosen_of(b, yes, no); });
     }
+    if (instruction.operation == Operation::select) {
+      const int c = instruction.operands[2];
+      return chosen_of(
+          a, [&] { return chosen_of(b, yes, no); }, [&] { return chosen_of(c, yes, no); });
+    }
+    if (instruction.operation == Operation::constant) {
+      return instruction.bits != 0 ? yes() : no();
+    }
     if (instruction.operation == Operation::bit_xor && at(b).operation == Operation::constant &&
         at(b).bits != 0) {
       return chosen_of(a, no, yes);

@@ -9,6 +9,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/model/markdown_model_code.hpp"
 #include "certificates/model/markdown_model_gains.hpp"
 #include "certificates/model/markdown_model_lock.hpp"
 #include "certificates/model/markdown_model_phases.hpp"
@@ -63,9 +64,10 @@ std::string states_of(const ModelTable& table, std::size_t states) {
 std::string design_section(const Certificate& certificate, const ModelTables& tables, const Model& model) {
   const Design& design = certificate.design;
   const auto& [table, assume, require] = tables;
-  const std::string text = fmt::format(
-      "## The design and what is assumed\n\n{}The tracker is a recursion of the design file (`{}`).\n\n",
-      markdown::quotation(design.name, design.source), design.tracker);
+  const std::string text =
+      fmt::format("## The design and what is assumed\n\n{}The tracker is a recursion {} (`{}`).\n\n",
+                  markdown::quotation(design.name, design.source),
+                  table.compiled ? "made of functions of C or C++" : "of the design file", design.tracker);
   std::vector<std::vector<std::string>> rows{
       {table.samples.size() == 1 ? "sample" : "samples, in phase and in quadrature", listed(table.samples),
        "signal units"},
@@ -210,10 +212,12 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   const ModelTables& tables = model_tables(certificate.design);
   const Model model = make_model(tables.model, tables.assume.signal);
   if (model_sets(certificate).gains) {
-    return design_section(certificate, tables, model) + model_gains_section(certificate, model, options) +
-           recursion_section(model) + gains_coverage_section(tables);
+    return design_section(certificate, tables, model) + model_code_section(tables) +
+           model_gains_section(certificate, model, options) + recursion_section(model) +
+           gains_coverage_section(tables);
   }
-  return design_section(certificate, tables, model) + model_lock_section(certificate) +
+  return design_section(certificate, tables, model) + model_code_section(tables) +
+         model_lock_section(certificate) +
          (model_sets(certificate).phases ? model_phases_section(certificate) : std::string()) +
          (model_sets(certificate).averages ? model_averages_section(certificate) : std::string()) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +

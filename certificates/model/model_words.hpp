@@ -20,29 +20,47 @@ namespace veritrack::certificates {
 /// covariance, or, in a proof by gains, in the steady state.
 enum class StartsIn { set, set_with_covariance, steady_state };
 
+/// "In exact arithmetic", and of what where the recursion is that of code.
+inline std::string arithmetic_of(const ModelTable& model) {
+  std::string text(kExactArithmetic);
+  if (!model.compiled) {
+    return text;
+  }
+  text += " of the listing of `step` and `frequency` in ";
+  const std::vector<code::CodeFile>& files = model.compiled->files;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == files.size() ? " and " : ", ";
+    text += fmt::format("{} (SHA-256 {:.16}...)", files[i].name, files[i].sha256);
+  }
+  return text + (model.angles.empty() ? "" : ", angles modulo 2 pi");
+}
+
 /// The words of the hypotheses.
 class ModelWords {
  public:
   /// `part`: the part of the band to which statements are limited; none for the whole band.
   explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt,
                       StartsIn starts = StartsIn::set)
-      : assume_(&tables.assume), is_tone_(is_pure_tone(tables)), part_(std::move(part)), starts_(starts) {}
+      : assume_(&tables.assume),
+        arithmetic_(arithmetic_of(tables.model)),
+        is_tone_(is_pure_tone(tables)),
+        part_(std::move(part)),
+        starts_(starts) {}
 
   [[nodiscard]] std::string unit() const { return assume_->frequency_in_hertz ? "Hz" : "rad/sample"; }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
     const std::string signal = is_tone_ ? "a tone" : "the signal of the design file";
     const auto& [least, largest] = assume_->amplitude;
     if (is_constant_in_range(*assume_)) {
-      return fmt::format("{}, on {} of any constant amplitude in [{}, {}] with {}", kExactArithmetic, signal,
+      return fmt::format("{}, on {} of any constant amplitude in [{}, {}] with {}", arithmetic_, signal,
                          least.text, largest.text, frequency);
     }
     return assume_->one_amplitude
-               ? fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic, signal, least.text,
-                             frequency)
+               ? fmt::format("{}, on {} of amplitude {} with {}", arithmetic_, signal, least.text, frequency)
                : fmt::format(
                      "{}, on {} with an amplitude in [{}, {}], which may differ from sample to sample, "
                      "with {}",
-                     kExactArithmetic, signal, least.text, largest.text, frequency);
+                     arithmetic_, signal, least.text, largest.text, frequency);
   }
   [[nodiscard]] std::string band() const {
     if (part_) {
@@ -115,6 +133,7 @@ class ModelWords {
   }
 
   const ModelAssumptions* assume_;
+  std::string arithmetic_;
   bool is_tone_ = false;
   std::optional<BandPart> part_;
   StartsIn starts_;

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "checker/document/code_files.hpp"
 #include "checker/document/design_number.hpp"
 #include "checker/document/model_design_file.hpp"
 #include "checker/document/sha256.hpp"
@@ -138,16 +139,18 @@ class Comparison {
 
 /// The part of a file that is a design of this tracker.
 void compare_design(const Tree& design, const TomlFile& file, const toml::table& part,
-                    Objections& objections) {
+                    const std::filesystem::path& folder, Objections& objections) {
   if (design.at("tracker").text() == "model") {
     compare_model_design(design, file, part, objections);
+    compare_code_files(design, folder, objections);
   } else {
     Comparison(file, objections).table("", design, &part);
   }
 }
 
 /// [design] of a regulator is the design of its tracker, which has a certificate of its own.
-void compare_regulator(const Tree& certificate, const TomlFile& file, Objections& objections) {
+void compare_regulator(const Tree& certificate, const TomlFile& file, const std::filesystem::path& folder,
+                       Objections& objections) {
   Comparison outside(file, objections);
   outside.leave_aside("design");
   outside.table("", certificate.at("design"), &file.table());
@@ -158,7 +161,7 @@ void compare_regulator(const Tree& certificate, const TomlFile& file, Objections
     return;
   }
   Objections inside;
-  compare_design(certificate.at("frequency_tracker").at("design"), file, *tracker, inside);
+  compare_design(certificate.at("frequency_tracker").at("design"), file, *tracker, folder, inside);
   for (const std::string& objection : inside) {
     objections.push_back("design.frequency_tracker: " + objection);
   }
@@ -166,7 +169,8 @@ void compare_regulator(const Tree& certificate, const TomlFile& file, Objections
 
 }  // namespace
 
-void compare_with_design_file(const Tree& certificate, const std::string& file, Objections& objections) {
+void compare_with_design_file(const Tree& certificate, const std::string& file, Objections& objections,
+                              const std::filesystem::path& folder) {
   if (sha256(file) != certificate.at("design_sha256").text()) {
     objections.emplace_back("the design file has another SHA-256 than the certificate names");
   }
@@ -174,9 +178,9 @@ void compare_with_design_file(const Tree& certificate, const std::string& file, 
     const TomlFile toml(file);
     const Tree& design = certificate.at("design");
     if (design.at("tracker").text() == "vibration-regulator") {
-      compare_regulator(certificate, toml, objections);
+      compare_regulator(certificate, toml, folder, objections);
     } else {
-      compare_design(design, toml, toml.table(), objections);
+      compare_design(design, toml, toml.table(), folder, objections);
     }
   } catch (const toml::parse_error& error) {
     throw Malformed("the design file is not TOML: " + std::string(error.description()));

@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "checker/document/code_files.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -67,7 +69,8 @@ class CertificateSays {
 /// The content of the file, with its defaults, in the form of the certificate.
 class FileSays {
  public:
-  FileSays(const TomlFile& file, const toml::table& part, Objections& objections)
+  /// `two_channels`: by default, where the functions of [code] say how many there are.
+  FileSays(const TomlFile& file, const toml::table& part, bool two_channels, Objections& objections)
       : file_(&file), objections_(&objections) {
     for (const auto& [key, value] : part) {
       const std::string name(key.str());
@@ -77,6 +80,8 @@ class FileSays {
         assume(value);
       } else if (name == "require") {
         requirements(value);
+      } else if (name == "code") {
+        code(value);
       } else if (name != "simulate") {
         leaf(name, value);
       }
@@ -92,7 +97,7 @@ class FileSays {
     fallback("assume.slew_in_hertz_per_second", "false");
     if (!has_signal_) {
       said_["model.signal[0]"] = "A*cos(phi)";
-      if (said_.contains("model.samples[1]")) {
+      if (said_.contains("model.samples[1]") || (part.contains("code") && two_channels)) {
         said_["model.signal[1]"] = "A*sin(phi)";
       }
     }
@@ -185,6 +190,17 @@ class FileSays {
       }
     });
   }
+  void code(const toml::node& table) {
+    each_of("code", table, [&](const std::string& name, const toml::node& value) {
+      const toml::array* values = value.as_array();
+      for (std::size_t i = 0; name == "files" && values != nullptr && i < values->size(); ++i) {
+        leaf(element("code.files", i) + ".name", *values->get(i));
+      }
+      if (name != "files") {
+        list("code." + name, value);
+      }
+    });
+  }
   void filter(const toml::node& table) {
     each_of("model.ekf", table, [&](const std::string& name, const toml::node& value) {
       const std::string path = "model.ekf." + name;
@@ -261,9 +277,13 @@ void compare_model_design(const Tree& design, const TomlFile& file, const toml::
                           Objections& objections) {
   CertificateSays certificate(objections);
   certificate.add("", design);
-  const FileSays there(file, part, objections);
+  const FileSays there(file, part, certificate.said().contains("model.samples[1]"), objections);
+  const bool has_code = design.find("code") != nullptr;
   for (const auto& [path, text] : certificate.said()) {
     const auto found = there.said().find(path);
+    if (has_code && is_from_code(path)) {
+      continue;
+    }
     if (found == there.said().end()) {
       objections.push_back(path + " is in the certificate and not in the design file");
     } else if (found->second != text) {

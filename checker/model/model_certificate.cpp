@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "checker/code/code_certificate.hpp"
 #include "checker/model/gain/gain_claims.hpp"
 #include "checker/model/gain/gain_evidence.hpp"
 #include "checker/model/gain/phase_evidence.hpp"
@@ -227,6 +228,13 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   result.parts.push_back({"design", objections});
   if (!objections.empty()) {
     return;  // no statement is made about an invalid design
+  }
+  if (tree.find("code") != nullptr) {
+    check_code(tree, objections);
+    result.parts.push_back({"the recursion is that of the listing", objections});
+    if (!objections.empty()) {
+      return;  // nor of another one than the code's
+    }
   }
   for (const Tree& derivation : certificate.at("derivations").elements()) {
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});

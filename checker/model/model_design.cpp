@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "checker/code/code_certificate.hpp"
 #include "checker/document/design_number.hpp"
 #include "checker/numbers/decimal_text.hpp"
 
@@ -271,8 +272,8 @@ std::string ModelWords::tone(const std::string& frequency) const {
   const auto& signal = design_->at("model").at("signal").elements();
   const bool is_tone = !signal.empty() && signal.size() <= 2 && signal[0].text() == "A*cos(phi)" &&
                        (signal.size() < 2 || signal[1].text() == "A*sin(phi)");
-  return std::string("In exact arithmetic, on ") + (is_tone ? "a tone" : "the signal of the design file") +
-         " " + amplitude() + frequency;
+  return "In exact arithmetic" + words_of_code(*design_) + ", on " +
+         (is_tone ? "a tone" : "the signal of the design file") + " " + amplitude() + frequency;
 }
 
 std::string ModelWords::band() const {

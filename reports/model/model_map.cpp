@@ -12,6 +12,7 @@
 #include "certificates/document/output_files.hpp"
 #include "certificates/model/model_design.hpp"
 #include "certificates/model/model_json.hpp"
+#include "certificates/model/model_words.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "reports/model/map_figure.hpp"
 #include "reports/model/root_locus.hpp"
@@ -68,7 +69,7 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
                        frequency_of(map, units), noise);
   }
   return fmt::format(
-      "**PROVED**: In exact arithmetic, on a tone {} the constant frequency {}, {}, "
+      "**PROVED**: {}, on a tone {} the constant frequency {}, {}, "
       "started "
       "at any phase of the signal with a deviation from the steady state in `{}` and `{}` that is in a cell "
       "marked proved, and no deviation in any other state, the tracker is in the certified set after at most "
@@ -78,8 +79,9 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
       "of these cells. In the certified set the frequency error is at most {}, and at most {} from {} "
       "samples "
       "later on.\n\n",
-      amplitude_of(tables.assume), frequency_of(map, units), noise, map.x.name, map.y.name, map.longest(),
-      units.at_most(map.frequency_error), units.at_most(map.settled_error),
+      certificates::arithmetic_of(tables.model), amplitude_of(tables.assume), frequency_of(map, units), noise,
+      map.x.name, map.y.name, map.longest(), units.at_most(map.frequency_error),
+      units.at_most(map.settled_error),
       std::isfinite(map.settling_samples) ? fmt::format("{:.0f}", map.settling_samples)
                                           : "an unknown number of");
 }

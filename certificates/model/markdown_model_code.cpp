@@ -1,0 +1,84 @@
+#include "certificates/model/markdown_model_code.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "certificates/document/markdown_text.hpp"
+#include "trackers/code/listing.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+std::string as_code(const std::string& text) {
+  return "`" + text + "`";
+}
+
+std::string files_table(const code::CompiledCode& compiled, const code::CodeTable& code) {
+  std::vector<std::vector<std::string>> rows;
+  for (const code::CodeFile& file : compiled.files) {
+    rows.push_back({"file, and its SHA-256", fmt::format("`{}`, `{}`", file.name, file.sha256)});
+  }
+  rows.push_back({"compiler", as_code(compiled.compiler)});
+  std::string flags;
+  for (const SourceText& flag : code.flags) {
+    flags += (flags.empty() ? "" : " ") + as_code(flag.text);
+  }
+  rows.push_back({"your flags", flags.empty() ? "none" : flags});
+  return markdown::table({"What", "Is"}, rows) + "\n";
+}
+
+std::string states_table(const code::CompiledCode& compiled, const ModelTable& model) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < compiled.listing.states.size() && i < model.states.size(); ++i) {
+    const trackers::code::State& state = compiled.listing.states[i];
+    const trackers::code::Format format =
+        compiled.listing.instructions[static_cast<std::size_t>(state.input)].format;
+    rows.push_back({as_code(model.states[i].text), format.bits == 32 ? "single" : "double",
+                    fmt::format("`{}`", trackers::code::number_of(format, state.start_bits))});
+  }
+  return markdown::table({"State", "Precision", "After `setup`"}, rows) + "\n";
+}
+
+/// The first lines, where there are very many.
+std::string shown(std::string_view listing) {
+  constexpr std::size_t kMostLines = 200;
+  std::size_t end = 0;
+  for (std::size_t line = 0; line < kMostLines && end < listing.size(); ++line) {
+    end = listing.find('\n', end) + 1;
+  }
+  std::string text(listing.substr(0, end));
+  return end < listing.size() ? text + "... (the rest is in certificate.json)\n" : text;
+}
+
+}  // namespace
+
+std::string model_code_section(const ModelTables& tables) {
+  if (!tables.model.compiled) {
+    return "";
+  }
+  const code::CompiledCode& compiled = *tables.model.compiled;
+  const bool has_angles = !tables.model.angles.empty();
+  return "## The code\n\nThe recursion is that of the functions `setup`, `step` and `frequency` in these "
+         "files. The "
+         "compiler's result was executed with symbols, which gives the listing below: the operations of one "
+         "step. `veritrack-verify` compares the recursion with the listing, by rules of its own.\n\n" +
+         files_table(compiled, tables.model.code) +
+         "These states were found. A start in a set of the certificate need not be the one after "
+         "`setup`.\n\n" +
+         states_table(compiled, tables.model) +
+         "- The statements are about the listing in exact arithmetic. The rounding of single and double "
+         "precision is not covered yet.\n"
+         "- That the compiled program does what the listing says is reported, not proved.\n" +
+         (has_angles
+              ? "- Angles are counted modulo 2π: a constant within 1e-5 of whole turns stands for whole "
+                "turns, and a wrap within 1e-4 of half a turn for one at half a turn. A start has its "
+                "angles in the range in which the program keeps them.\n"
+              : "") +
+         "\nThe listing:\n\n" + markdown::fenced(shown(compiled.listing_text), "") + "\n";
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,13 @@
+// The section of a document on the code that its recursion is made of.
+#pragma once
+
+#include <string>
+
+#include "certificates/model/model_design.hpp"
+
+namespace veritrack::certificates {
+
+/// "## The code": files, compiler, states and the listing; empty for a recursion that is written down.
+[[nodiscard]] std::string model_code_section(const ModelTables& tables);
+
+}  // namespace veritrack::certificates

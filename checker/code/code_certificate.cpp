@@ -1,0 +1,116 @@
+#include "checker/code/code_certificate.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "checker/code/formula_graph.hpp"
+#include "checker/code/listing.hpp"
+#include "checker/code/listing_match.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr const char* kInNames = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/+-";
+
+std::vector<std::string> listed_texts(const Tree& list) {
+  std::vector<std::string> texts;
+  for (const Tree& each : list.elements()) {
+    texts.push_back(each.text());
+  }
+  return texts;
+}
+
+/// Names and digests stand in sentences.
+void check_files(const Tree& code, Objections& objections) {
+  constexpr std::size_t kDigits = 64;
+  std::set<std::string> names;
+  for (const Tree& file : code.at("files").elements()) {
+    const std::string& name = file.at("name").text();
+    const std::string& digest = file.at("sha256").text();
+    if (name.empty() || name.find_first_not_of(kInNames) != std::string::npos || !names.insert(name).second) {
+      objections.emplace_back("code: a file with a name that is not allowed, or there twice");
+    }
+    if (digest.size() != kDigits || digest.find_first_not_of("0123456789abcdef") != std::string::npos) {
+      objections.emplace_back("code: sha256 is not 64 hexadecimal digits");
+    }
+  }
+  if (names.empty()) {
+    objections.emplace_back("code without files");
+  }
+  for (const Tree& flag : code.at("flags").elements()) {
+    if (!flag.text().starts_with('-')) {
+      objections.emplace_back("code: a flag that does not begin with -");
+    }
+  }
+  if (code.at("compiler").text().empty()) {
+    objections.emplace_back("code without its compiler");
+  }
+}
+
+/// Whether the name is that of the listing; behind a name that has another meaning stands _.
+bool is_named(const std::string& name, const std::string& listed) {
+  return name.starts_with(listed) && name.find_first_not_of('_', listed.size()) == std::string::npos;
+}
+
+void check_names(const std::vector<std::string>& names, const std::vector<std::string>& listed,
+                 const std::string& what, Objections& objections) {
+  if (names.size() != listed.size() || !std::equal(names.begin(), names.end(), listed.begin(), is_named)) {
+    objections.push_back("the " + what + " are not those of the listing, in its order");
+  }
+}
+
+}  // namespace
+
+void check_code(const Tree& design, Objections& objections) {
+  const Tree& code = design.at("code");
+  const Tree& model = design.at("model");
+  check_files(code, objections);
+  const CodeListing listing = read_listing(code.at("listing").text());
+  if (model.find("ekf") != nullptr) {
+    objections.emplace_back("code beside a filter");
+    return;
+  }
+  const std::vector<std::string> states = listed_texts(model.at("states"));
+  const std::vector<std::string> samples = listed_texts(model.at("samples"));
+  std::vector<std::string> listed;
+  for (const ListedState& state : listing.states) {
+    listed.push_back(state.name);
+  }
+  check_names(states, listed, "states", objections);
+  check_names(samples, listing.sample_names, "samples", objections);
+  std::vector<bool> is_angle(states.size(), false);
+  for (const std::string& angle : listed_texts(model.at("angles"))) {
+    const auto found = std::find(states.begin(), states.end(), angle);
+    if (found == states.end()) {
+      objections.push_back("the angle " + angle + " is no state");
+    } else {
+      is_angle[static_cast<std::size_t>(found - states.begin())] = true;
+    }
+  }
+  if (!objections.empty()) {
+    return;
+  }
+  const FormulaGraph graph(states, samples, model.at("step").text(), model.at("frequency").text());
+  objections = ListingMatch(listing, graph, std::move(is_angle)).objections();
+}
+
+std::string words_of_code(const Tree& design) {
+  const Tree* code = design.find("code");
+  if (code == nullptr) {
+    return "";
+  }
+  constexpr std::size_t kDigitsShown = 16;
+  const std::vector<Tree>& files = code->at("files").elements();
+  std::string words = " of the listing of `step` and `frequency` in ";
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    words += i == 0 ? "" : i + 1 == files.size() ? " and " : ", ";
+    words += files[i].at("name").text() + " (SHA-256 " +
+             files[i].at("sha256").text().substr(0, kDigitsShown) + "...)";
+  }
+  return words + (design.at("model").at("angles").elements().empty() ? "" : ", angles modulo 2 pi");
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,211 @@
+// Ranges of angles, from the wraps of a listing and from the limits among the formulas.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <numbers>
+
+#include "checker/code/listing_match.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+using RangeKind = FormulaStep::Kind;
+
+Span hull(Span a, Span b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+Span times(Span a, Span b) {
+  const auto [least, largest] = std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  return {least, largest};
+}
+std::optional<Span> if_finite(Span span) {
+  return std::isfinite(span.low) && std::isfinite(span.high) ? std::optional(slightly_wider(span))
+                                                             : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Span> ListingMatch::span(int place) {
+  place = wraps_.plain(place);
+  if (const auto known = spans_.find(place); known != spans_.end()) {
+    return known->second;
+  }
+  constexpr int kDeepest = 400;
+  if (depth_ > kDeepest) {
+    return std::nullopt;
+  }
+  ++depth_;
+  const std::optional<Span> found = span_by_rules(place);
+  --depth_;
+  spans_[place] = found;
+  return found;
+}
+
+std::optional<Span> ListingMatch::span_by_rules(int place) {
+  constexpr double kHalf = std::numbers::pi;
+  const ListedOperation& operation = listing_->at(place);
+  if (const auto state = state_spans_.find(place); state != state_spans_.end()) {
+    return state->second;
+  }
+  if (const auto number = wraps_.number(place)) {
+    return Span{*number, *number};
+  }
+  if (operation.is("atan2") || operation.is("acos")) {
+    return slightly_wider({operation.is("acos") ? 0.0 : -kHalf, kHalf});
+  }
+  if (operation.is("atan") || operation.is("asin")) {
+    return slightly_wider({-kHalf / 2, kHalf / 2});
+  }
+  if (operation.is("sin") || operation.is("cos") || operation.is("tanh")) {
+    return Span{-1.0, 1.0};
+  }
+  if (wraps_.is_wrapped(place)) {
+    const int base = wraps_.base_of(place);
+    const std::optional<Span> of_base = span(base);
+    return of_base ? wraps_.range(place, base, *of_base) : std::nullopt;
+  }
+  if (operation.is("fneg")) {
+    const std::optional<Span> of = span(operation.operands[0]);
+    return of ? std::optional(Span{-of->high, -of->low}) : std::nullopt;
+  }
+  const bool is_sum = operation.is("fadd") || operation.is("fsub");
+  if (!is_sum && !operation.is("fmul") && !operation.is("select")) {
+    return std::nullopt;
+  }
+  const std::size_t first = operation.is("select") ? 1 : 0;
+  const std::optional<Span> a = span(operation.operands[first]);
+  const std::optional<Span> b = a || is_sum ? span(operation.operands[first + 1]) : std::nullopt;
+  if (!a || !b) {
+    return is_sum ? span_of_sum(place) : std::nullopt;
+  }
+  return operation.is("select") ? if_finite(hull(*a, *b))
+         : operation.is("fmul") ? if_finite(times(*a, *b))
+         : operation.is("fadd") ? if_finite({a->low + b->low, a->high + b->high})
+                                : if_finite({a->low - b->high, a->high - b->low});
+}
+
+std::optional<Span> ListingMatch::span_of_term(const Signed& term) {
+  const std::optional<double> constant = wraps_.number(term.of);
+  // The sign of a constant is apart.
+  const std::optional<Span> size =
+      constant ? std::optional(Span{std::fabs(*constant), std::fabs(*constant)}) : span(term.of);
+  return size && term.is_negative ? std::optional(Span{-size->high, -size->low}) : size;
+}
+
+/// A sum of values whose ranges are known, one of them perhaps, and others that the formulas limit together.
+std::optional<Span> ListingMatch::span_of_sum(int place) {
+  const std::vector<Signed> terms = terms_of_register(place);
+  const auto with_limit = [&](const std::vector<bool>& is_limited) -> std::optional<Span> {
+    std::vector<Signed> rest;
+    Span sum;
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const std::optional<Span> known = is_limited[i] ? std::nullopt : span_of_term(terms[i]);
+      if (known) {
+        sum = {sum.low + known->low, sum.high + known->high};
+      } else {
+        rest.push_back(terms[i]);
+      }
+    }
+    const std::optional<Span> limits = limits_of(rest);
+    return limits ? if_finite({sum.low + limits->low, sum.high + limits->high}) : std::nullopt;
+  };
+  if (const auto found = with_limit(std::vector<bool>(terms.size(), false))) {
+    return found;
+  }
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    std::vector<bool> all_but_one(terms.size(), true);
+    all_but_one[i] = false;
+    if (const auto found = span_of_term(terms[i]) ? with_limit(all_but_one) : std::nullopt) {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> ListingMatch::bound(int node) const {
+  bool is_negative = false;
+  while (graph_->at(node).kind == RangeKind::negate) {
+    node = graph_->at(node).arguments[0];
+    is_negative = !is_negative;
+  }
+  const FormulaNode& formula = graph_->at(node);
+  double value = 0.0;
+  if (formula.kind == RangeKind::number) {
+    value = std::strtod(formula.text.c_str(), nullptr);
+    // What is next to zero is not taken for it.
+    if ((value == 0.0) != exact_decimal(formula.text).digits.empty()) {
+      return std::nullopt;
+    }
+  } else if (formula.kind == RangeKind::name && formula.text == "pi") {
+    value = std::numbers::pi;
+  } else {
+    return std::nullopt;
+  }
+  return is_negative ? -value : value;
+}
+
+std::optional<Span> ListingMatch::bounds_of(int limit) const {
+  const FormulaNode& formula = graph_->at(limit);
+  if (!formula.is_function("stays_within", 3)) {
+    return std::nullopt;
+  }
+  const std::optional<double> low = bound(formula.arguments[1]);
+  const std::optional<double> high = bound(formula.arguments[2]);
+  return low && high && *low <= *high ? std::optional(Span{*low, *high}) : std::nullopt;
+}
+
+std::optional<Span> ListingMatch::limits_of(const std::vector<Signed>& terms) {
+  constexpr double kHalfTurn = std::numbers::pi + 1e-9;
+  for (const int limit : graph_->limits()) {
+    const std::optional<Span> bounds = bounds_of(limit);
+    if (bounds && bounds->low >= -kHalfTurn && bounds->high <= kHalfTurn &&
+        same_terms(terms_of_node(graph_->at(limit).arguments[0]), terms, false)) {
+      return slightly_wider(*bounds);
+    }
+  }
+  return std::nullopt;
+}
+
+/// The ranges that wraps keep the angles in: from their starts on, until they do not grow.
+void ListingMatch::find_spans(Objections& objections) {
+  constexpr int kMostRounds = 16;
+  for (std::size_t i = 0; i < listing_->states.size(); ++i) {
+    const ListedState& state = listing_->states[i];
+    if (is_angle_[i] && std::isfinite(state.start) && wraps_.is_wrapped(state.next)) {
+      state_spans_[state.input] = {state.start, state.start};
+    } else if (is_angle_[i]) {
+      objections.push_back("the listing does not wrap " + state.name);
+    }
+  }
+  bool has_grown = true;
+  for (int round = 0; has_grown && round < kMostRounds; ++round) {
+    has_grown = false;
+    numbers_.clear();
+    congruences_.clear();
+    matched_.clear();
+    spans_.clear();
+    for (const ListedState& state : listing_->states) {
+      const auto known = state_spans_.find(state.input);
+      const std::optional<Span> next = known != state_spans_.end() ? span(state.next) : std::nullopt;
+      if (known == state_spans_.end()) {
+        continue;
+      }
+      if (!next) {
+        objections.push_back("no rule shows in which range the listing keeps " + state.name);
+        state_spans_.erase(known);
+        has_grown = true;  // what rests on it is asked again
+      } else if (const Span both = hull(known->second, *next); !(both == known->second)) {
+        known->second = both;
+        has_grown = true;
+      }
+    }
+  }
+  if (has_grown) {
+    objections.emplace_back(
+        "the listing does not keep its angles in a range, for steps of up to half a turn");
+  }
+}
+
+}  // namespace veritrack::checker

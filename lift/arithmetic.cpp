@@ -40,12 +40,9 @@ Value for_each_element(llvm::Type* type, bool has_elements, llvm::ArrayRef<Value
   return parts;
 }
 
-/// Whether an undefined operand makes the result undefined: each result has an operand that gives it. Others
-/// are computed with a 0, one of the values that the operand may have.
-bool keeps_undefined(unsigned opcode) {
-  using Op = llvm::Instruction;
-  return opcode == Op::Add || opcode == Op::Sub || opcode == Op::Xor || opcode == Op::FNeg ||
-         opcode == Op::Trunc || opcode == Op::BitCast;
+[[noreturn]] void refuse_undefined() {
+  throw LiftError(
+      "a value that is not defined is used; allowed: variables that are set before they are read");
 }
 
 /// The aggregate with another value at a path of numbers.
@@ -82,7 +79,10 @@ Value Executor::arithmetic(Frame& frame, const llvm::Instruction& instruction) {
     return for_each_element(instruction.getType(), instruction.getOperand(0)->getType()->isVectorTy(),
                             {value(0), value(1), value(2)}, [&](llvm::Type*, llvm::ArrayRef<Value> of) {
                               const auto* number = of[0].as<Register>();
-                              return number == nullptr ? of[2] : memory_.select(number->number, of[1], of[2]);
+                              if (number == nullptr) {
+                                refuse_undefined();
+                              }
+                              return memory_.select(number->number, of[1], of[2]);
                             });
   }
   if (llvm::isa<llvm::FreezeInst>(instruction)) {
@@ -131,7 +131,7 @@ Value Executor::frozen(llvm::Type* type, const Value& value) {
   if (held == nullptr) {
     const bool is_number = type->isIntegerTy() || type->isFloatTy() || type->isDoubleTy();
     if (value.is_undefined() && !is_number) {
-      throw LiftError("a value that is not defined is used");
+      refuse_undefined();
     }
     return value.is_undefined() ? Value(Register{graph_.constant(memory_.format_of(type), 0)}) : value;
   }
@@ -144,22 +144,19 @@ Value Executor::frozen(llvm::Type* type, const Value& value) {
 
 Value Executor::on_scalars(const llvm::Instruction& instruction, llvm::Type* type,
                            llvm::ArrayRef<Value> operands) {
+  const Operation operation = operation_of(instruction.getOpcode());
   std::vector<int> numbers;
   for (const Value& operand : operands) {
     const auto* number = operand.as<Register>();
     if (operand.is_undefined()) {
-      if (keeps_undefined(instruction.getOpcode())) {
-        return Undefined{};
-      }
-      numbers.push_back(
-          graph_.constant(memory_.format_of(instruction.getOperand(0)->getType()->getScalarType()), 0));
+      refuse_undefined();
     } else if (number == nullptr) {
       return on_pointers(instruction, operands.front(), operands.back());
     } else {
       numbers.push_back(number->number);
     }
   }
-  const int result = graph_.make(operation_of(instruction.getOpcode()), memory_.format_of(type), numbers);
+  const int result = graph_.make(operation, memory_.format_of(type), numbers);
   require_defined(instruction, numbers, result);
   return Register{result};
 }
@@ -233,11 +230,13 @@ Value Executor::compare(const llvm::CmpInst& instruction, const Value& a, const 
     std::vector<int> numbers;
     for (const Value& operand : of) {
       const auto* number = operand.as<Register>();
-      if (number == nullptr && (!operand.is_undefined() || compared->isPtrOrPtrVectorTy())) {
+      if (operand.is_undefined()) {
+        refuse_undefined();
+      }
+      if (number == nullptr) {
         return compare_pointers(instruction.getPredicate(), of[0], of[1]);
       }
-      numbers.push_back(number != nullptr ? number->number
-                                          : graph_.constant(memory_.format_of(compared->getScalarType()), 0));
+      numbers.push_back(number->number);
     }
     const Operation operation = llvm::isa<llvm::FCmpInst>(instruction) ? Operation::fcmp : Operation::icmp;
     return Register{graph_.make(operation, kBit, numbers, predicate_of(instruction.getPredicate()))};
@@ -262,9 +261,6 @@ Value Executor::compare_pointers(llvm::CmpInst::Predicate predicate, const Value
   };
   if ((predicate == Cmp::ICMP_EQ || predicate == Cmp::ICMP_NE) &&
       (a == b || (is_known(a, x) && is_known(b, y)))) {
-    if (a.is_undefined()) {
-      throw LiftError("a pointer that is not defined is compared");
-    }
     return Register{graph_.bit((a == b) == (predicate == Cmp::ICMP_EQ))};
   }
   if (x == nullptr || y == nullptr || x->object != y->object || x->index >= 0 || y->index >= 0) {

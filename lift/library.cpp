@@ -71,11 +71,13 @@ std::optional<Value> Executor::of_library(const llvm::CallBase& instruction, con
     llvm::Type* of = instruction.getArgOperand(static_cast<unsigned>(i))->getType();
     const auto* number = arguments[i].as<Register>();
     const bool fits = tests ? of->isFloatTy() || of->isDoubleTy() : of == type;
-    if (!fits || (number == nullptr && !arguments[i].is_undefined())) {
+    if (fits && arguments[i].is_undefined()) {
+      throw LiftError("a value that is not defined is used in a call of " + name);
+    }
+    if (!fits || number == nullptr) {
       return std::nullopt;
     }
-    // An undefined operand may have any value.
-    operands.push_back(number != nullptr ? number->number : graph_.constant(memory_.format_of(of), 0));
+    operands.push_back(number->number);
   }
   const Format format = memory_.format_of(type);
   if (tests) {

@@ -196,9 +196,17 @@ class ListingParser {
       listing_.sample_names.push_back(rest_from(3));
     } else if (first == "state") {
       read_state();
-    } else if (first == "table") {
+    } else if (first == "steps-before") {
+      if (words_.size() != 2 || listing_.steps_before != 0) {
+        fail("more than one number of steps before");
+      }
+      listing_.steps_before = integer<int>(word(1));
+    } else if (first == "table" || first == "library-table") {
       if (word(1) != fmt::format("t{}", listing_.tables.size())) {
         fail("tables are not in order");
+      }
+      if (first == "library-table") {
+        listing_.library_tables.push_back(static_cast<int>(listing_.tables.size()));
       }
       listing_.tables.emplace_back();
       for (std::size_t i = 2; i < words_.size(); ++i) {

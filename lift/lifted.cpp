@@ -118,7 +118,14 @@ class Writer {
     const std::string cell = cell_name(executor_->memory().object(state.before.first), state.before.second);
     const int age = state.before == state.after ? 0 : age_of(*orbit_, state.before);
     const std::string name = without_index(cell) + "_" + std::to_string(age) + "_ago";
-    return age > 0 && taken_.insert(name).second ? name : cell;
+    if (age > 0 && taken_.insert(name).second) {
+      return name;
+    }
+    std::string free = cell;
+    for (int i = 2; !taken_.insert(free).second; ++i) {  // static variables of several functions
+      free = cell + "_" + std::to_string(i);
+    }
+    return free;
   }
 
   void write_operations(const std::vector<bool>& needed) {

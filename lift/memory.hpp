@@ -87,7 +87,8 @@ class Memory {
   [[nodiscard]] Value load_scalar(const Address& address, llvm::Type* type);
   [[nodiscard]] Value load_bytes(const Cells& cells, std::int64_t offset, llvm::Type* type);
   void make_room(Cells& cells, std::int64_t offset, std::int64_t bytes);
-  [[nodiscard]] Cells merged(int condition, const Cells& yes, const Cells& no, const std::string& name);
+  void reshape(Cells& cells, const Cells& like);
+  [[nodiscard]] Cells merged(int condition, Cells yes, Cells no, const std::string& name);
   [[nodiscard]] Value load_element(const Address& address, llvm::Type* type);
   void store_at(const Address& address, llvm::Type* type, const Value& value);
   /// The member or element `i` of a type that has some: its type and offset; null behind the last.

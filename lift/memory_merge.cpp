@@ -1,4 +1,5 @@
 // Two ways meet: what each has left becomes one value, or one memory.
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -42,40 +43,48 @@ Value Memory::select(int condition, const Value& yes, const Value& no) {
   return Choice{condition, std::make_shared<const Value>(yes), std::make_shared<const Value>(no)};
 }
 
-/// Cells of known bytes take the size of those of the other way.
-Cells Memory::merged(int condition, const Cells& yes, const Cells& no, const std::string& name) {
-  Cells result;
-  auto a = yes.begin();
-  auto b = no.begin();
-  while (a != yes.end() || b != no.end()) {
-    const bool has_a = a != yes.end() && (b == no.end() || a->first <= b->first);
-    const bool has_b = b != no.end() && (a == yes.end() || b->first <= a->first);
-    if (has_a && has_b && a->second.size == b->second.size) {
-      const Value value = select(condition, a->second.value, b->second.value);
-      result.emplace(a->first, Cell{a->second.size, value});
-      ++a;
-      ++b;
+/// Known bytes take the sizes of the cells of the other way: those of smaller ones, or of what is not known.
+void Memory::reshape(Cells& cells, const Cells& like) {
+  for (const auto& [offset, cell] : like) {
+    const std::int64_t end = offset + cell.size;
+    auto first = cells.lower_bound(offset);
+    if (first != cells.begin() && std::prev(first)->first + std::prev(first)->second.size > offset) {
+      --first;
+    }
+    const bool is_there = first != cells.end() && first->first < end;
+    if (!is_there || cell.size > 8 || (first->first == offset && first->second.size == cell.size)) {
       continue;
     }
-    const bool takes_a = has_a && (!has_b || a->second.size > b->second.size);
-    const auto [offset, cell] = takes_a ? *a : *b;
-    auto& others = takes_a ? b : a;
-    const auto end_of_others = takes_a ? no.end() : yes.end();
-    const std::int64_t end = offset + cell.size;
-    Value other;
-    if (others != end_of_others && others->first < end) {
-      const std::optional<std::uint64_t> bits = known_bits(takes_a ? no : yes, offset, cell.size);
-      while (others != end_of_others && others->first + others->second.size <= end) {
-        ++others;
-      }
-      if (!bits || cell.size > 8 || (others != end_of_others && others->first < end)) {
-        throw LiftError("memory is used in pieces of two sizes in " + name);
-      }
-      other = Register{graph_->constant({false, static_cast<int>(8 * cell.size)}, *bits)};
+    const bool is_inside = first->first <= offset && first->first + first->second.size >= end;
+    bool is_known = is_inside || !known_bits(like, offset, cell.size);
+    for (auto it = first; it != cells.end() && it->first < end; ++it) {
+      is_known = is_known && known_bits(cells, it->first, it->second.size).has_value();
     }
-    const Value value = takes_a ? select(condition, cell.value, other) : select(condition, other, cell.value);
-    result.emplace(offset, Cell{cell.size, value});
-    ++(takes_a ? a : b);
+    if (is_known) {
+      const std::uint64_t bits = *known_bits(cells, offset, cell.size);
+      make_room(cells, offset, cell.size);
+      cells[offset] = {cell.size, Register{graph_->constant({false, static_cast<int>(8 * cell.size)}, bits)}};
+    }
+  }
+}
+
+Cells Memory::merged(int condition, Cells yes, Cells no, const std::string& name) {
+  for (int i = 0; i < 2; ++i) {  // cells that are split may then be put together
+    reshape(yes, no);
+    reshape(no, yes);
+  }
+  Cells result = yes;
+  for (const auto& [offset, cell] : no) {
+    const auto other = yes.find(offset);
+    if (other != yes.end() && other->second.size == cell.size) {
+      result[offset].value = select(condition, other->second.value, cell.value);
+      continue;
+    }
+    const auto behind = yes.lower_bound(offset + cell.size);
+    if (behind != yes.begin() && std::prev(behind)->first + std::prev(behind)->second.size > offset) {
+      throw LiftError("memory is used in pieces of two sizes in " + name);
+    }
+    result[offset] = cell;  // undefined on the other way
   }
   return result;
 }

@@ -1,12 +1,12 @@
 // Operations of LLVM on numbers, integers, bits and addresses.
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/InstrTypes.h>
-#include <llvm/IR/Operator.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "lift/executor.hpp"
+#include "lift/opcodes.hpp"
 
 namespace veritrack::lift {
 
@@ -14,151 +14,35 @@ namespace {
 
 using trackers::code::kBit;
 
-Operation operation_of(unsigned opcode) {
-  using Op = llvm::Instruction;
-  switch (opcode) {
-    case Op::FAdd:
-      return Operation::fadd;
-    case Op::FSub:
-      return Operation::fsub;
-    case Op::FMul:
-      return Operation::fmul;
-    case Op::FDiv:
-      return Operation::fdiv;
-    case Op::FRem:
-      return Operation::fmod;
-    case Op::FNeg:
-      return Operation::fneg;
-    case Op::Add:
-      return Operation::add;
-    case Op::Sub:
-      return Operation::sub;
-    case Op::Mul:
-      return Operation::mul;
-    case Op::UDiv:
-      return Operation::udiv;
-    case Op::SDiv:
-      return Operation::sdiv;
-    case Op::URem:
-      return Operation::urem;
-    case Op::SRem:
-      return Operation::srem;
-    case Op::And:
-      return Operation::bit_and;
-    case Op::Or:
-      return Operation::bit_or;
-    case Op::Xor:
-      return Operation::bit_xor;
-    case Op::Shl:
-      return Operation::shl;
-    case Op::LShr:
-      return Operation::lshr;
-    case Op::AShr:
-      return Operation::ashr;
-    case Op::FPExt:
-      return Operation::fpext;
-    case Op::FPTrunc:
-      return Operation::fptrunc;
-    case Op::SIToFP:
-      return Operation::sitofp;
-    case Op::UIToFP:
-      return Operation::uitofp;
-    case Op::FPToSI:
-      return Operation::fptosi;
-    case Op::FPToUI:
-      return Operation::fptoui;
-    case Op::ZExt:
-      return Operation::zext;
-    case Op::SExt:
-      return Operation::sext;
-    case Op::Trunc:
-      return Operation::integer_trunc;
-    default:
-      throw LiftError(std::string("an operation that is not followed: ") +
-                      llvm::Instruction::getOpcodeName(opcode));
+Value part_of(const Value& value, std::size_t i) {
+  const auto* parts = value.as<Parts>();
+  if (parts == nullptr && !value.is_undefined()) {
+    throw LiftError("a vector that is not followed");
   }
+  return parts == nullptr ? Value(Undefined{}) : parts->parts.at(i);
 }
 
-Predicate predicate_of(llvm::CmpInst::Predicate predicate) {
-  using Cmp = llvm::CmpInst;
-  switch (predicate) {
-    case Cmp::FCMP_OEQ:
-      return Predicate::oeq;
-    case Cmp::FCMP_ONE:
-      return Predicate::one;
-    case Cmp::FCMP_OLT:
-      return Predicate::olt;
-    case Cmp::FCMP_OLE:
-      return Predicate::ole;
-    case Cmp::FCMP_OGT:
-      return Predicate::ogt;
-    case Cmp::FCMP_OGE:
-      return Predicate::oge;
-    case Cmp::FCMP_ORD:
-      return Predicate::ord;
-    case Cmp::FCMP_UEQ:
-      return Predicate::ueq;
-    case Cmp::FCMP_UNE:
-      return Predicate::une;
-    case Cmp::FCMP_ULT:
-    case Cmp::ICMP_ULT:
-      return Predicate::ult;
-    case Cmp::FCMP_ULE:
-    case Cmp::ICMP_ULE:
-      return Predicate::ule;
-    case Cmp::FCMP_UGT:
-    case Cmp::ICMP_UGT:
-      return Predicate::ugt;
-    case Cmp::FCMP_UGE:
-    case Cmp::ICMP_UGE:
-      return Predicate::uge;
-    case Cmp::FCMP_UNO:
-      return Predicate::uno;
-    case Cmp::ICMP_EQ:
-      return Predicate::eq;
-    case Cmp::ICMP_NE:
-      return Predicate::ne;
-    case Cmp::ICMP_SLT:
-      return Predicate::slt;
-    case Cmp::ICMP_SLE:
-      return Predicate::sle;
-    case Cmp::ICMP_SGT:
-      return Predicate::sgt;
-    case Cmp::ICMP_SGE:
-      return Predicate::sge;
-    default:
-      throw LiftError("a comparison that is always true or false");
-  }
-}
-
-void refuse_fast_math(const llvm::Instruction& instruction) {
-  const auto* number = llvm::dyn_cast<llvm::FPMathOperator>(&instruction);
-  // Contraction alone is bounded by the unfused operation.
-  if (number != nullptr &&
-      (number->hasAllowReassoc() || number->hasNoNaNs() || number->hasNoInfs() ||
-       number->hasAllowReciprocal() || number->hasApproxFunc() || number->hasNoSignedZeros())) {
-    throw LiftError(
-        "an operation under -ffast-math, which may be computed in another order; allowed: the file "
-        "compiled without it");
-  }
-}
-
-/// For each element of vectors, or for two scalars.
+/// For each element of vectors, or for scalars.
 template <typename OnScalars>
-Value for_each_element(llvm::Type* type, const Value& a, const Value& b, const OnScalars& on_scalars) {
-  if (!type->isVectorTy()) {
-    return on_scalars(type, a, b);
-  }
-  const auto* x = a.as<Parts>();
-  const auto* y = b.as<Parts>();
-  if (x == nullptr || y == nullptr) {
-    return Undefined{};
+Value for_each_element(llvm::Type* type, bool has_elements, llvm::ArrayRef<Value> operands,
+                       const OnScalars& on_scalars) {
+  if (!has_elements) {
+    return on_scalars(type, operands);
   }
   Parts parts;
-  for (std::size_t i = 0; i < x->parts.size(); ++i) {
-    parts.parts.push_back(on_scalars(type->getScalarType(), x->parts[i], y->parts.at(i)));
+  for (unsigned i = 0; i < llvm::cast<llvm::FixedVectorType>(type)->getNumElements(); ++i) {
+    std::vector<Value> elements;
+    for (const Value& operand : operands) {
+      elements.push_back(part_of(operand, i));
+    }
+    parts.parts.push_back(on_scalars(type->getScalarType(), elements));
   }
   return parts;
+}
+
+[[noreturn]] void refuse_undefined() {
+  throw LiftError(
+      "a value that is not defined is used; allowed: variables that are set before they are read");
 }
 
 /// The aggregate with another value at a path of numbers.
@@ -192,18 +76,22 @@ Value Executor::arithmetic(Frame& frame, const llvm::Instruction& instruction) {
     return compare(*comparison, value(0), value(1));
   }
   if (llvm::isa<llvm::SelectInst>(instruction)) {
-    const Value condition = value(0);
-    const auto* number = condition.as<Register>();
-    return number == nullptr ? Value(Undefined{}) : memory_.select(number->number, value(1), value(2));
+    return for_each_element(instruction.getType(), instruction.getOperand(0)->getType()->isVectorTy(),
+                            {value(0), value(1), value(2)}, [&](llvm::Type*, llvm::ArrayRef<Value> of) {
+                              const auto* number = of[0].as<Register>();
+                              if (number == nullptr) {
+                                refuse_undefined();
+                              }
+                              return memory_.select(number->number, of[1], of[2]);
+                            });
   }
   if (llvm::isa<llvm::FreezeInst>(instruction)) {
-    return value(0);
+    return frozen(instruction.getType(), value(0));
   }
   if (const auto* extract = llvm::dyn_cast<llvm::ExtractValueInst>(&instruction)) {
     Value part = value(0);
     for (const unsigned i : extract->indices()) {
-      const auto* parts = part.as<Parts>();
-      part = parts == nullptr ? Value(Undefined{}) : Value(parts->parts.at(i));
+      part = part_of(part, i);
     }
     return part;
   }
@@ -228,25 +116,49 @@ Value Executor::arithmetic(Frame& frame, const llvm::Instruction& instruction) {
     parts.parts.at(i) = value(1);
     return parts;
   }
-  const Value a = value(0);
-  const Value b = instruction.getNumOperands() > 1 ? value(1) : a;
-  return for_each_element(instruction.getType(), a, b, [&](llvm::Type* type, const Value& x, const Value& y) {
-    return on_scalars(instruction, type, x, y);
-  });
+  std::vector<Value> operands;
+  for (unsigned i = 0; i < instruction.getNumOperands(); ++i) {
+    operands.push_back(value(i));
+  }
+  return for_each_element(
+      instruction.getType(), instruction.getType()->isVectorTy(), operands,
+      [&](llvm::Type* type, llvm::ArrayRef<Value> of) { return on_scalars(instruction, type, of); });
 }
 
-Value Executor::on_scalars(const llvm::Instruction& instruction, llvm::Type* type, const Value& a,
-                           const Value& b) {
-  const auto* x = a.as<Register>();
-  const auto* y = b.as<Register>();
-  if (x == nullptr || y == nullptr) {
-    return a.is_undefined() || b.is_undefined() ? Value(Undefined{}) : on_pointers(instruction, a, b);
+/// A value that may be any becomes one.
+Value Executor::frozen(llvm::Type* type, const Value& value) {
+  const auto* held = value.as<Parts>();
+  if (held == nullptr) {
+    const bool is_number = type->isIntegerTy() || type->isFloatTy() || type->isDoubleTy();
+    if (value.is_undefined() && !is_number) {
+      refuse_undefined();
+    }
+    return value.is_undefined() ? Value(Register{graph_.constant(memory_.format_of(type), 0)}) : value;
   }
-  std::vector<int> operands{x->number};
-  if (instruction.getNumOperands() > 1) {
-    operands.push_back(y->number);
+  Parts parts;
+  for (const Value& part : held->parts) {
+    parts.parts.push_back(frozen(type->getScalarType(), part));
   }
-  return Register{graph_.make(operation_of(instruction.getOpcode()), memory_.format_of(type), operands)};
+  return parts;
+}
+
+Value Executor::on_scalars(const llvm::Instruction& instruction, llvm::Type* type,
+                           llvm::ArrayRef<Value> operands) {
+  const Operation operation = operation_of(instruction.getOpcode());
+  std::vector<int> numbers;
+  for (const Value& operand : operands) {
+    const auto* number = operand.as<Register>();
+    if (operand.is_undefined()) {
+      refuse_undefined();
+    } else if (number == nullptr) {
+      return on_pointers(instruction, operands.front(), operands.back());
+    } else {
+      numbers.push_back(number->number);
+    }
+  }
+  const int result = graph_.make(operation, memory_.format_of(type), numbers);
+  require_defined(instruction, numbers, result);
+  return Register{result};
 }
 
 Value Executor::on_pointers(const llvm::Instruction& instruction, const Value& a, const Value& b) {
@@ -272,7 +184,11 @@ Value Executor::cast(const llvm::CastInst& instruction, const Value& value) {
   const bool keeps_addresses =
       opcode == llvm::Instruction::BitCast || opcode == llvm::Instruction::PtrToInt ||
       opcode == llvm::Instruction::IntToPtr || opcode == llvm::Instruction::AddrSpaceCast;
-  if (value.is_undefined() || (keeps_addresses && !value.as<Register>() && !value.as<Parts>())) {
+  const bool is_number = value.as<Register>() != nullptr || value.as<Parts>() != nullptr;
+  if (keeps_addresses && !is_number) {
+    if (!value.is_undefined() && to->isIntegerTy() && to->getIntegerBitWidth() < 32) {
+      throw LiftError("a part of a pointer is used as an integer");
+    }
     return value;
   }
   if (opcode == llvm::Instruction::BitCast) {
@@ -282,48 +198,50 @@ Value Executor::cast(const llvm::CastInst& instruction, const Value& value) {
     }
     return Register{graph_.reinterpreted(number->number, memory_.format_of(to))};
   }
-  return for_each_element(
-      to, value, value, [&](llvm::Type* type, const Value& element, const Value&) -> Value {
-        const auto* number = element.as<Register>();
-        if (number == nullptr) {
-          return Undefined{};
-        }
-        if (type->isPointerTy()) {
-          if (graph_.is_known(number->number) && graph_.bits(number->number) == 0) {
-            return Address{};
-          }
-          throw LiftError("an integer is used as a pointer");
-        }
-        return Register{graph_.make(operation_of(opcode), memory_.format_of(type), {number->number})};
-      });
+  return for_each_element(to, to->isVectorTy(), {value},
+                          [&](llvm::Type* type, llvm::ArrayRef<Value> of) -> Value {
+                            const auto* number = of[0].as<Register>();
+                            if (type->isPointerTy() && number != nullptr) {
+                              if (graph_.is_known(number->number) && graph_.bits(number->number) == 0) {
+                                return Address{};
+                              }
+                              throw LiftError("an integer is used as a pointer");
+                            }
+                            if (number == nullptr && !of[0].is_undefined()) {
+                              throw LiftError("a part of a pointer is used as an integer");
+                            }
+                            return on_scalars(instruction, type, of);
+                          });
 }
 
 /// The bits of a vector as those of another, or of a scalar: known ones, or element by element.
 Value Executor::cast_vector(const llvm::CastInst& instruction, const Value& value) {
   llvm::Type* from = instruction.getSrcTy();
   llvm::Type* to = instruction.getDestTy();
-  const int scratch = memory_.add({"a value", nullptr, false, memory_.size_of(from)});
+  const int scratch = memory_.add({"a value", nullptr, false, true, memory_.size_of(from)});
   const Address place{scratch, 0, -1, 0};
   memory_.store(place, from, value);
   return memory_.load(place, to);
 }
 
 Value Executor::compare(const llvm::CmpInst& instruction, const Value& a, const Value& b) {
-  return for_each_element(instruction.getOperand(0)->getType(), a, b,
-                          [&](llvm::Type* /*type*/, const Value& left, const Value& right) -> Value {
-                            if (left.is_undefined() || right.is_undefined()) {
-                              return Undefined{};
-                            }
-                            const auto* x = left.as<Register>();
-                            const auto* y = right.as<Register>();
-                            if (x == nullptr || y == nullptr) {
-                              return compare_pointers(instruction.getPredicate(), left, right);
-                            }
-                            const Operation operation =
-                                llvm::isa<llvm::FCmpInst>(instruction) ? Operation::fcmp : Operation::icmp;
-                            return Register{graph_.make(operation, kBit, {x->number, y->number},
-                                                        predicate_of(instruction.getPredicate()))};
-                          });
+  llvm::Type* compared = instruction.getOperand(0)->getType();
+  const auto on_elements = [&](llvm::Type* /*type*/, llvm::ArrayRef<Value> of) -> Value {
+    std::vector<int> numbers;
+    for (const Value& operand : of) {
+      const auto* number = operand.as<Register>();
+      if (operand.is_undefined()) {
+        refuse_undefined();
+      }
+      if (number == nullptr) {
+        return compare_pointers(instruction.getPredicate(), of[0], of[1]);
+      }
+      numbers.push_back(number->number);
+    }
+    const Operation operation = llvm::isa<llvm::FCmpInst>(instruction) ? Operation::fcmp : Operation::icmp;
+    return Register{graph_.make(operation, kBit, numbers, predicate_of(instruction.getPredicate()))};
+  };
+  return for_each_element(instruction.getType(), compared->isVectorTy(), {a, b}, on_elements);
 }
 
 Value Executor::compare_pointers(llvm::CmpInst::Predicate predicate, const Value& a, const Value& b) {
@@ -336,11 +254,15 @@ Value Executor::compare_pointers(llvm::CmpInst::Predicate predicate, const Value
                           compare_pointers(predicate, a, *choice->no));
   }
   using Cmp = llvm::CmpInst;
-  if (predicate == Cmp::ICMP_EQ || predicate == Cmp::ICMP_NE) {
-    return Register{graph_.bit((a == b) == (predicate == Cmp::ICMP_EQ))};
-  }
   const auto* x = a.as<Address>();
   const auto* y = b.as<Address>();
+  const auto is_known = [&](const Value& value, const Address* address) {
+    return (address != nullptr && address->index < 0) || value.as<FunctionAddress>() != nullptr;
+  };
+  if ((predicate == Cmp::ICMP_EQ || predicate == Cmp::ICMP_NE) &&
+      (a == b || (is_known(a, x) && is_known(b, y)))) {
+    return Register{graph_.bit((a == b) == (predicate == Cmp::ICMP_EQ))};
+  }
   if (x == nullptr || y == nullptr || x->object != y->object || x->index >= 0 || y->index >= 0) {
     throw LiftError("a comparison of pointers that are not into the same object");
   }

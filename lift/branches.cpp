@@ -2,6 +2,7 @@
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "lift/executor.hpp"
@@ -43,13 +44,15 @@ const Executor::Shape& Executor::shape_of(const llvm::Function& function) {
   return shape;
 }
 
-void Executor::require_zero(int condition, const std::string& why) {
+void Executor::require_zero(int condition, const std::string& why, int of) {
   int all = condition;
   for (const int step : path_) {
     all = graph_.both(all, step);
   }
   if (!graph_.is_known(all) || graph_.bits(all) != 0) {
-    conditions_.push_back({all, why, graph_.place()});
+    // A known value may be used where no operation is left.
+    const bool is_known = of >= 0 && graph_.is_known(of);
+    conditions_.push_back({condition, path_, is_known ? -1 : of, why, graph_.place()});
   }
 }
 
@@ -79,86 +82,104 @@ std::optional<bool> Executor::decided(int condition) {
   return holds;
 }
 
-const llvm::BasicBlock* Executor::leave_loop(Frame& frame, const Step& step, const llvm::BasicBlock* block) {
+/// The arms that the program may take; the last one has no condition.
+std::vector<Executor::Arm> Executor::undecided(const std::vector<Arm>& arms) {
+  std::vector<Arm> open;
+  for (Arm arm : arms) {
+    const std::optional<bool> holds = arm.condition < 0 ? true : decided(arm.condition);
+    if (holds && !*holds) {
+      continue;
+    }
+    arm.condition = holds ? -1 : arm.condition;
+    open.push_back(arm);
+    if (holds) {
+      break;
+    }
+  }
+  const auto is_last = [&](const Arm& arm) { return arm.target == open.back().target; };
+  return std::all_of(open.begin(), open.end(), is_last) ? std::vector<Arm>{{-1, open.back().target}} : open;
+}
+
+const llvm::BasicBlock* Executor::leave_loop(Frame& frame, const std::vector<Arm>& arms,
+                                             const llvm::BasicBlock* block) {
+  if (arms.size() != 2) {
+    throw LiftError("a switch on the state decides whether a loop ends; allowed: if");
+  }
+  const llvm::BasicBlock* yes = arms[0].target;
+  const llvm::BasicBlock* no = arms[1].target;
   const Shape& shape = shape_of(*frame.function);
   const auto goes_on = [&](const llvm::BasicBlock* from) {
     return from == block || shape.reaches.at(from).contains(block);
   };
-  const bool leaves_by_no = goes_on(step.yes) && (!goes_on(step.no) || step.no == shape.meets.at(block));
-  require_zero(leaves_by_no ? step.condition : graph_.negated(step.condition), "a loop has ended");
-  return leaves_by_no ? step.no : step.yes;
+  const bool leaves_by_no = goes_on(yes) && (!goes_on(no) || no == shape.meets.at(block));
+  require_zero(leaves_by_no ? arms[0].condition : graph_.negated(arms[0].condition), "a loop has ended");
+  return leaves_by_no ? no : yes;
 }
 
-/// Both ways from a condition on the state, to where they meet; `block` is then where it goes on. A result
-/// where that is not in this function, or all ways have ended.
-std::optional<Executor::Ended> Executor::branch(Frame& frame, const Step& step,
-                                                const llvm::BasicBlock*& block) {
-  const llvm::BasicBlock* meeting = shape_of(*frame.function).meets.at(block);
-  struct Way {
-    Ended ended = Ended::dead;
-    Environment values;
-    Memory::Contents contents;
-    std::optional<Value> result;
-  };
-  const Environment values = frame.values;
+/// One way, to where all meet.
+Executor::Way Executor::follow(Frame& frame, const llvm::BasicBlock& from, const llvm::BasicBlock& target) {
+  enter(frame, target, from);
+  const Ended ended = run(frame, &target, shape_of(*frame.function).meets.at(&from));
+  if (ended == Ended::dead) {
+    require_zero(graph_.bit(true), "the program does not end here");
+  }
+  return {ended, frame.values, memory_.contents(), frame.result};
+}
+
+Executor::Way Executor::follow_arms(Frame& frame, const llvm::BasicBlock& from, llvm::ArrayRef<Arm> arms) {
+  if (arms.size() == 1) {
+    return follow(frame, from, *arms.front().target);
+  }
+  const Frame before = frame;
   const Memory::Contents contents = memory_.contents();
-  const std::optional<Value> result = frame.result;
-  const auto visits = frame.visits;
-  const auto follow = [&](int condition, const llvm::BasicBlock* target) {
-    frame.values = values;
-    frame.result = result;
-    frame.visits = visits;
-    ++frame.visits[block];
-    memory_.restore(contents);
-    path_.push_back(condition);
-    enter(frame, *target, *block);
-    Way way;
-    way.ended = run(frame, target, meeting);
-    if (way.ended == Ended::dead) {
-      require_zero(graph_.bit(true), "the program does not end here");
-    }
-    path_.pop_back();
-    way.values = frame.values;
-    way.contents = memory_.contents();
-    way.result = frame.result;
-    return way;
-  };
-  const Way yes = follow(step.condition, step.yes);
-  const Way no = follow(graph_.negated(step.condition), step.no);
-  frame.visits = visits;
-  const auto take = [&](const Way& way) {
-    frame.values = way.values;
-    frame.result = way.result;
-    memory_.restore(way.contents);
-  };
+  const int condition = arms.front().condition;
+  path_.push_back(condition);
+  Way yes = follow(frame, from, *arms.front().target);
+  path_.back() = graph_.negated(condition);
+  frame = before;
+  memory_.restore(contents);
+  Way no = follow_arms(frame, from, arms.drop_front());
+  path_.pop_back();
+  return merged(condition, std::move(yes), std::move(no));
+}
+
+Executor::Way Executor::merged(int condition, Way yes, Way no) {
   if (yes.ended == Ended::dead || no.ended == Ended::dead) {
-    const Way& other = yes.ended == Ended::dead ? no : yes;
-    take(other);
-    if (other.ended != Ended::at_stop) {
-      return other.ended;
-    }
-  } else if (yes.ended != no.ended) {
+    return yes.ended == Ended::dead ? no : yes;
+  }
+  if (yes.ended != no.ended) {
     throw LiftError("one way returns and the other does not");
-  } else {
-    for (const auto& [name, value] : yes.values) {
-      const auto other = no.values.find(name);
-      if (other != no.values.end()) {
-        frame.values[name] = memory_.select(step.condition, value, other->second);
-      }
-    }
-    memory_.merge(step.condition, yes.contents, no.contents);
-    if (yes.result && no.result) {
-      frame.result = memory_.select(step.condition, *yes.result, *no.result);
-    }
-    if (yes.ended == Ended::returned) {
-      return Ended::returned;
+  }
+  for (const auto& [name, value] : yes.values) {
+    const auto other = no.values.find(name);
+    if (other != no.values.end()) {
+      other->second = memory_.select(condition, value, other->second);
     }
   }
-  if (meeting == nullptr) {
-    return Ended::returned;
+  memory_.merge(condition, yes.contents, no.contents);
+  no.contents = memory_.contents();
+  if (yes.result && no.result) {
+    no.result = memory_.select(condition, *yes.result, *no.result);
   }
-  block = meeting;
-  return std::nullopt;
+  return no;
+}
+
+/// All ways from a condition on the state, to where they meet; `block` is then where it goes on. A result
+/// where that is not in this function, or all ways have ended.
+std::optional<Executor::Ended> Executor::branch(Frame& frame, const std::vector<Arm>& arms,
+                                                const llvm::BasicBlock*& block) {
+  const auto visits = frame.visits;
+  ++frame.visits[block];
+  Way way = follow_arms(frame, *block, arms);
+  frame.visits = visits;
+  frame.values = std::move(way.values);
+  frame.result = std::move(way.result);
+  memory_.restore(std::move(way.contents));
+  if (way.ended != Ended::at_stop) {
+    return way.ended;
+  }
+  block = shape_of(*frame.function).meets.at(block);
+  return block == nullptr ? std::optional(Ended::returned) : std::nullopt;
 }
 
 /// Follows blocks until `stop` is entered (its values known), or the function's end where that is null.
@@ -168,22 +189,17 @@ Executor::Ended Executor::run(Frame& frame, const llvm::BasicBlock* block, const
     for (auto instruction = block->getFirstNonPHI()->getIterator(); !step; ++instruction) {
       step = execute(frame, *instruction);
     }
-    if (step->kind == Step::Kind::returned) {
-      return Ended::returned;
+    if (step->kind != Step::Kind::goes_on) {
+      return step->kind == Step::Kind::returned ? Ended::returned : Ended::dead;
     }
-    if (step->kind == Step::Kind::dead) {
-      return Ended::dead;
-    }
-    const llvm::BasicBlock* next = step->yes;
-    if (step->kind == Step::Kind::branch && step->yes != step->no) {
-      const std::optional<bool> holds = decided(step->condition);
+    const std::vector<Arm> arms = undecided(step->arms);
+    const llvm::BasicBlock* next = arms.front().target;
+    if (arms.size() > 1) {
       const bool is_in_loop = shape_of(*frame.function).reaches.at(block).contains(block);
-      if (holds) {
-        next = *holds ? step->yes : step->no;
-      } else if (is_in_loop && frame.visits[block] >= kTurns) {
-        next = leave_loop(frame, *step, block);
+      if (is_in_loop && frame.visits[block] >= kTurns) {
+        next = leave_loop(frame, arms, block);
       } else {
-        if (const auto ended = branch(frame, *step, block)) {
+        if (const auto ended = branch(frame, arms, block)) {
           return *ended;
         }
         continue;

@@ -1,6 +1,5 @@
 // Calls: of functions that are defined, of the library of C, and of what compilers put in.
 #include <llvm/IR/DebugInfoMetadata.h>
-#include <llvm/IR/InlineAsm.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Operator.h>
 
@@ -15,46 +14,6 @@ namespace veritrack::lift {
 namespace {
 
 using trackers::code::kBit;
-using trackers::code::kDouble;
-using trackers::code::kSingle;
-
-struct LibraryFunction {
-  std::string_view name;
-  Operation operation;
-  std::size_t operands;
-};
-
-/// Functions of <math.h> for double; with an f behind the name for float.
-constexpr std::array kLibrary{
-    LibraryFunction{"sin", Operation::sin, 1},           LibraryFunction{"cos", Operation::cos, 1},
-    LibraryFunction{"tan", Operation::tan, 1},           LibraryFunction{"asin", Operation::asin, 1},
-    LibraryFunction{"acos", Operation::acos, 1},         LibraryFunction{"atan", Operation::atan, 1},
-    LibraryFunction{"atan2", Operation::atan2, 2},       LibraryFunction{"exp", Operation::exp, 1},
-    LibraryFunction{"log", Operation::log, 1},           LibraryFunction{"pow", Operation::pow, 2},
-    LibraryFunction{"hypot", Operation::hypot, 2},       LibraryFunction{"tanh", Operation::tanh, 1},
-    LibraryFunction{"sqrt", Operation::sqrt, 1},         LibraryFunction{"fabs", Operation::fabs, 1},
-    LibraryFunction{"floor", Operation::floor, 1},       LibraryFunction{"ceil", Operation::ceil, 1},
-    LibraryFunction{"trunc", Operation::trunc, 1},       LibraryFunction{"rint", Operation::rint, 1},
-    LibraryFunction{"nearbyint", Operation::rint, 1},    LibraryFunction{"round", Operation::round, 1},
-    LibraryFunction{"fmin", Operation::fmin, 2},         LibraryFunction{"fmax", Operation::fmax, 2},
-    LibraryFunction{"minnum", Operation::fmin, 2},       LibraryFunction{"maxnum", Operation::fmax, 2},
-    LibraryFunction{"copysign", Operation::copysign, 2}, LibraryFunction{"fmod", Operation::fmod, 2},
-    LibraryFunction{"fma", Operation::fma, 3},
-};
-
-/// The name of a function without what names its types: `llvm.fabs.f32` is fabs, sinf sin.
-std::string_view plain_name(std::string_view name) {
-  if (name.substr(0, 5) == "llvm.") {
-    name.remove_prefix(5);
-    return name.substr(0, name.find('.'));
-  }
-  const auto is_known = [](std::string_view wanted) {
-    return std::any_of(kLibrary.begin(), kLibrary.end(),
-                       [&](const LibraryFunction& entry) { return entry.name == wanted; });
-  };
-  const bool is_single = !name.empty() && name.back() == 'f' && is_known(name.substr(0, name.size() - 1));
-  return is_single ? name.substr(0, name.size() - 1) : name;
-}
 
 bool begins(std::string_view text, std::string_view with) {
   return text.substr(0, with.size()) == with;
@@ -62,17 +21,26 @@ bool begins(std::string_view text, std::string_view with) {
 
 bool has_no_effect(std::string_view name) {
   constexpr std::array kNone{
-      "llvm.lifetime",  "llvm.dbg",       "llvm.experimental.noalias", "llvm.assume",  "llvm.stack",
-      "llvm.donothing", "llvm.invariant", "_ZNSt8ios_base4Init",       "__cxa_atexit", "__cxa_guard_release",
-      "_ZdlPv",         "_ZdaPv"};
-  return name == "free" ||
-         std::any_of(kNone.begin(), kNone.end(), [&](const char* with) { return begins(name, with); });
+      "llvm.lifetime",  "llvm.dbg",       "llvm.experimental.noalias", "llvm.assume", "llvm.stack",
+      "llvm.donothing", "llvm.invariant", "_ZNSt8ios_base4Init",       "__cxa_atexit"};
+  return std::any_of(kNone.begin(), kNone.end(), [&](const char* with) { return begins(name, with); });
 }
 
+/// Also what is only called where a product of complex numbers is no number.
 bool ends_program(std::string_view name) {
-  return name == "llvm.trap" || name == "abort" || name == "exit" || begins(name, "__assert") ||
-         begins(name, "__cxa_throw") || begins(name, "_ZSt20__throw") || begins(name, "_ZSt9terminate") ||
+  return name == "__mulsc3" || name == "__muldc3" || name == "llvm.trap" || name == "abort" ||
+         name == "exit" || begins(name, "__assert") || begins(name, "__cxa_throw") ||
+         begins(name, "_ZSt20__throw") || begins(name, "_ZSt9terminate") ||
          name.find("__throw") != std::string_view::npos;
+}
+
+/// Whether a call fits to a function; what pointers point to may differ, as in calls of virtual functions.
+bool have_same_types(const llvm::FunctionType& a, const llvm::FunctionType& b) {
+  const auto same = [](const llvm::Type* x, const llvm::Type* y) {
+    return x == y || (x->isPointerTy() && y->isPointerTy());
+  };
+  return same(a.getReturnType(), b.getReturnType()) && a.getNumParams() == b.getNumParams() &&
+         std::equal(a.param_begin(), a.param_end(), b.param_begin(), same);
 }
 
 }  // namespace
@@ -98,6 +66,9 @@ std::optional<Value> Executor::call_of(Frame& frame, const llvm::CallBase& instr
     }
     function = known->function;
   }
+  if (!have_same_types(*function->getFunctionType(), *instruction.getFunctionType())) {
+    throw LiftError("a call of " + function->getName().str() + " with other types than it has");
+  }
   if (!function->isDeclaration()) {
     const Place place = graph_.place();
     Value result = call(*function, arguments);
@@ -122,51 +93,22 @@ std::optional<Value> Executor::known_function(Frame& /*frame*/, const llvm::Call
   if (auto value = of_memory(instruction, name, arguments)) {
     return value;
   }
-  if (auto value = of_library(name, instruction.getType(), arguments)) {
+  if (auto value = of_library(instruction, name, arguments)) {
     return value;
   }
-  if (auto value = of_integers(name, arguments)) {
+  if (auto value = of_integers(instruction, name, arguments)) {
     return value;
   }
-  if (name == "printf" || name == "puts" || name == "fprintf" || name == "putchar") {
-    return Value(Register{graph_.constant({false, 32}, 0)});
+  if (auto value = of_lifetimes(name, arguments)) {
+    return value;
   }
-  if (name == "__cxa_guard_acquire") {
-    return Value(Register{graph_.constant({false, 32}, 1)});
+  const bool prints = name == "printf" || name == "puts" || name == "fprintf" || name == "putchar";
+  if (prints && instruction.use_empty()) {
+    return Value(Undefined{});
   }
   throw LiftError("a call of " + name +
                   ", which is neither defined in the files nor a function of the library that "
                   "is known; allowed: its file among `files`");
-}
-
-std::optional<Value> Executor::of_library(const std::string& name, llvm::Type* type,
-                                          const std::vector<Value>& arguments) {
-  std::vector<int> operands;
-  for (const Value& argument : arguments) {
-    const auto* number = argument.as<Register>();
-    operands.push_back(number == nullptr ? -1 : number->number);
-  }
-  const bool is_defined = std::find(operands.begin(), operands.end(), -1) == operands.end();
-  const std::string_view plain = plain_name(name);
-  if (plain == "fmuladd" && is_defined && operands.size() == 3) {
-    const Format format = memory_.format_of(type);
-    const int product = graph_.make(Operation::fmul, format, {operands[0], operands[1]});
-    return Value(Register{graph_.make(Operation::fadd, format, {product, operands[2]})});
-  }
-  if (plain == "isnan" || plain == "__isnanf" || plain == "__isnan") {
-    const int is_nan = graph_.make(Operation::fcmp, kBit, {operands.at(0), operands.at(0)}, Predicate::uno);
-    return Value(Register{graph_.make(Operation::zext, memory_.format_of(type), {is_nan})});
-  }
-  const auto* found = std::find_if(kLibrary.begin(), kLibrary.end(),
-                                   [&](const LibraryFunction& entry) { return entry.name == plain; });
-  if (found == kLibrary.end() || operands.size() < found->operands || type->isVectorTy()) {
-    return std::nullopt;
-  }
-  operands.resize(found->operands);
-  if (!is_defined) {
-    return Value(Undefined{});
-  }
-  return Value(Register{graph_.make(found->operation, memory_.format_of(type), operands)});
 }
 
 std::optional<Value> Executor::of_memory(const llvm::CallBase& instruction, const std::string& name,
@@ -178,6 +120,10 @@ std::optional<Value> Executor::of_memory(const llvm::CallBase& instruction, cons
     }
     return graph_.signed_bits(number->number);
   };
+  const bool moves = begins(name, "llvm.mem");
+  if (moves && arguments.size() > 3 && known(3) != 0) {
+    throw LiftError("volatile memory is copied or filled, whose values nobody knows");
+  }
   if (begins(name, "llvm.memcpy") || begins(name, "llvm.memmove") || name == "memcpy" || name == "memmove") {
     memory_.copy(arguments.at(0), arguments.at(1), known(2));
     return arguments[0];
@@ -193,7 +139,7 @@ std::optional<Value> Executor::of_memory(const llvm::CallBase& instruction, cons
       throw LiftError("more than a million bytes of memory are asked for");
     }
     const int line = place_of(instruction).line;
-    const int object = memory_.add({"memory of line " + std::to_string(line), nullptr, false, bytes});
+    const int object = memory_.add({"memory of line " + std::to_string(line), nullptr, false, false, bytes});
     if (!is_new) {
       memory_.fill_with_zeros(object, 0, bytes);
     }
@@ -214,8 +160,38 @@ std::optional<Value> Executor::of_memory(const llvm::CallBase& instruction, cons
   return std::nullopt;
 }
 
-std::optional<Value> Executor::of_integers(const std::string& name, const std::vector<Value>& arguments) {
-  const std::string_view plain = plain_name(name);
+/// Static variables of functions that are set where the function is called first, and memory given back.
+std::optional<Value> Executor::of_lifetimes(const std::string& name, const std::vector<Value>& arguments) {
+  if (name == "__cxa_guard_acquire" || name == "__cxa_guard_release") {
+    llvm::LLVMContext& context = module_->getContext();
+    const Value one = Register{graph_.constant({false, 8}, 1)};
+    if (name == "__cxa_guard_acquire") {  // called where the first byte is 0
+      return Value(Register{graph_.constant({false, 32}, 1)});
+    }
+    memory_.store(arguments.at(0), llvm::Type::getInt8Ty(context), one);
+    return Value(Undefined{});
+  }
+  if (name != "free" && !begins(name, "_ZdlPv") && !begins(name, "_ZdaPv")) {
+    return std::nullopt;
+  }
+  const auto* address = arguments.at(0).as<Address>();
+  if (address == nullptr || !path_.empty()) {
+    throw LiftError("memory is given back where the state decides");
+  }
+  if (address->object >= 0) {
+    memory_.end(address->object);
+  }
+  return Value(Undefined{});
+}
+
+std::optional<Value> Executor::of_integers(const llvm::CallBase& instruction, const std::string& name,
+                                           const std::vector<Value>& arguments) {
+  if (name != "abs" && !begins(name, "llvm.")) {
+    return std::nullopt;
+  }
+  std::string_view plain = name;
+  plain.remove_prefix(name == "abs" ? 0 : 5);
+  plain = plain.substr(0, plain.find('.'));
   const auto number = [&](std::size_t i) {
     const auto* held = arguments.at(i).as<Register>();
     if (held == nullptr) {
@@ -239,12 +215,15 @@ std::optional<Value> Executor::of_integers(const std::string& name, const std::v
       return Value(Register{graph_.select(first, number(0), number(1))});
     }
   }
-  if (plain == "abs") {
+  if (plain == "abs" && !instruction.getType()->isVectorTy()) {
     const Format format = graph_.format(number(0));
     const int zero = graph_.constant(format, 0);
     const int is_negative = graph_.make(Operation::icmp, kBit, {number(0), zero}, Predicate::slt);
-    return Value(Register{
-        graph_.select(is_negative, graph_.make(Operation::sub, format, {zero, number(0)}), number(0))});
+    const int lowest = graph_.constant(format, std::uint64_t{1} << static_cast<unsigned>(format.bits - 1));
+    const int negative = graph_.make(Operation::sub, format, {zero, number(0)});
+    const int is_lowest = graph_.make(Operation::icmp, kBit, {number(0), lowest}, Predicate::eq);
+    require_zero(is_lowest, "an operation on signed integers does not overflow", negative);
+    return Value(Register{graph_.select(is_negative, negative, number(0))});
   }
   return std::nullopt;
 }

@@ -24,7 +24,7 @@ std::string element_name(const llvm::DICompositeType& array, std::int64_t bits, 
 std::string part_name(const llvm::DIType* of, std::int64_t bits, std::string name) {
   const auto* type = llvm::dyn_cast_or_null<llvm::DICompositeType>(plain_type(of));
   if (type == nullptr) {
-    return name;
+    return bits == 0 ? name : name + "_" + std::to_string(bits / 8);  // e.g. of a complex number
   }
   if (type->getTag() == llvm::dwarf::DW_TAG_array_type) {
     return element_name(*type, bits, std::move(name));

@@ -15,12 +15,22 @@ namespace {
 constexpr std::int64_t kMostExecuted = 2'000'000;  // instructions
 constexpr int kDeepestCalls = 200;
 
+/// The register of a number that decides what is executed.
+int defined(const Value& value, const char* what) {
+  const auto* number = value.as<Register>();
+  if (number == nullptr) {
+    throw LiftError(std::string(what) + " is not defined");
+  }
+  return number->number;
+}
+
 }  // namespace
 
 Executor::Executor(const llvm::Module& module) : module_(&module), memory_(graph_, module.getDataLayout()) {
+  memory_.tell([this](int condition, const char* why) { require_zero(condition, why); });
   for (const llvm::GlobalVariable& global : module.globals()) {
-    globals_[&global] = memory_.add(
-        {global.getName().str(), &global, global.isConstant(), memory_.size_of(global.getValueType())});
+    globals_[&global] = memory_.add({global.getName().str(), &global, global.isConstant(), false,
+                                     memory_.size_of(global.getValueType())});
   }
   for (const llvm::GlobalVariable& global : module.globals()) {
     if (global.hasInitializer() && !global.getName().startswith("llvm.")) {
@@ -62,6 +72,7 @@ Place Executor::place_of(const llvm::Instruction& instruction) {
 }
 
 Value Executor::call(const llvm::Function& function, const std::vector<Value>& arguments) {
+  executed_ = depth_ == 0 ? 0 : executed_;
   if (++depth_ > kDeepestCalls) {
     throw LiftError("functions call each other more than 200 deep");
   }
@@ -70,12 +81,13 @@ Value Executor::call(const llvm::Function& function, const std::vector<Value>& a
   }
   Frame frame;
   frame.function = &function;
+  const int objects = memory_.objects();
   for (const llvm::Argument& argument : function.args()) {
     Value value = arguments[argument.getArgNo()];
     if (argument.hasByValAttr()) {
       const std::int64_t size = memory_.size_of(argument.getParamByValType());
-      const Address copy{memory_.add({"an argument of " + function.getName().str(), nullptr, false, size}), 0,
-                         -1, 0};
+      const Address copy{
+          memory_.add({"an argument of " + function.getName().str(), nullptr, false, true, size}), 0, -1, 0};
       memory_.copy(copy, value, size);
       value = copy;
     }
@@ -85,6 +97,11 @@ Value Executor::call(const llvm::Function& function, const std::vector<Value>& a
   --depth_;
   if (ended == Ended::dead) {
     throw LiftError("the function ends the program");
+  }
+  for (int object = objects; object < memory_.objects(); ++object) {
+    if (memory_.object(object).is_variable) {
+      memory_.end(object);
+    }
   }
   return frame.result.value_or(Undefined{});
 }
@@ -101,42 +118,38 @@ Executor::Step Executor::terminator(Frame& frame, const llvm::Instruction& instr
   if (const auto* end = llvm::dyn_cast<llvm::ReturnInst>(&instruction)) {
     frame.result =
         end->getReturnValue() == nullptr ? Value(Undefined{}) : operand(frame, end->getReturnValue());
-    return {Step::Kind::returned};
+    return {Step::Kind::returned, {}};
   }
   if (const auto* jump = llvm::dyn_cast<llvm::BranchInst>(&instruction)) {
     if (jump->isUnconditional()) {
-      return {Step::Kind::jump, jump->getSuccessor(0)};
+      return {Step::Kind::goes_on, {{-1, jump->getSuccessor(0)}}};
     }
-    const Value condition = operand(frame, jump->getCondition());
-    const auto* number = condition.as<Register>();
-    if (number == nullptr) {
-      throw LiftError("a condition that is not defined");
-    }
-    return {Step::Kind::branch, jump->getSuccessor(0), jump->getSuccessor(1), number->number};
+    const int condition = defined(operand(frame, jump->getCondition()), "a condition");
+    return {Step::Kind::goes_on, {{condition, jump->getSuccessor(0)}, {-1, jump->getSuccessor(1)}}};
   }
   if (const auto* choice = llvm::dyn_cast<llvm::SwitchInst>(&instruction)) {
-    const Value value = operand(frame, choice->getCondition());
-    const auto* number = value.as<Register>();
-    if (number == nullptr || !graph_.is_known(number->number)) {
-      throw LiftError("a switch on the state; allowed: if");
-    }
+    const int number = defined(operand(frame, choice->getCondition()), "the value of a switch");
+    Step step;
     for (const auto& entry : choice->cases()) {
-      if (entry.getCaseValue()->getZExtValue() == graph_.bits(number->number)) {
-        return {Step::Kind::jump, entry.getCaseSuccessor()};
-      }
+      const int constant =
+          graph_.constant(graph_.format(number), entry.getCaseValue()->getValue().getZExtValue());
+      step.arms.push_back(
+          {graph_.make(Operation::icmp, trackers::code::kBit, {number, constant}, Predicate::eq),
+           entry.getCaseSuccessor()});
     }
-    return {Step::Kind::jump, choice->getDefaultDest()};
+    step.arms.push_back({-1, choice->getDefaultDest()});
+    return step;
   }
   if (const auto* invoke = llvm::dyn_cast<llvm::InvokeInst>(&instruction)) {
     const std::optional<Value> result = call_of(frame, *invoke);
     if (!result) {
-      return {Step::Kind::dead};
+      return {Step::Kind::dead, {}};
     }
     frame.values[&instruction] = *result;
-    return {Step::Kind::jump, invoke->getNormalDest()};
+    return {Step::Kind::goes_on, {{-1, invoke->getNormalDest()}}};
   }
   if (llvm::isa<llvm::UnreachableInst>(instruction)) {
-    return {Step::Kind::dead};
+    return {Step::Kind::dead, {}};
   }
   throw LiftError(std::string("an instruction that is not followed: ") + instruction.getOpcodeName());
 }
@@ -152,9 +165,12 @@ std::optional<Executor::Step> Executor::execute(Frame& frame, const llvm::Instru
   }
   Value& result = frame.values[&instruction];
   if (const auto* alloca = llvm::dyn_cast<llvm::AllocaInst>(&instruction)) {
+    if (alloca->isArrayAllocation()) {
+      throw LiftError("an array whose length is not a constant");
+    }
     const std::int64_t size = memory_.size_of(alloca->getAllocatedType());
-    result = Address{memory_.add({"a variable of " + frame.function->getName().str(), nullptr, false, size}),
-                     0, -1, 0};
+    const std::string name = "a variable of " + frame.function->getName().str();
+    result = Address{memory_.add({name, nullptr, false, true, size}), 0, -1, 0};
   } else if (const auto* load = llvm::dyn_cast<llvm::LoadInst>(&instruction)) {
     if (load->isVolatile()) {
       throw LiftError("a volatile variable is read, whose value nobody knows");
@@ -168,7 +184,7 @@ std::optional<Executor::Step> Executor::execute(Frame& frame, const llvm::Instru
   } else if (const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction)) {
     std::optional<Value> value = call_of(frame, *call);
     if (!value) {
-      return Step{Step::Kind::dead};
+      return Step{Step::Kind::dead, {}};
     }
     frame.values[&instruction] = *value;
   } else {
@@ -183,6 +199,9 @@ Value Executor::moved(const Value& base, std::int64_t offset, int index, std::in
                           moved(*choice->no, offset, index, stride));
   }
   const auto* address = base.as<Address>();
+  if (address == nullptr && !base.is_undefined()) {
+    throw LiftError("an offset to what is no pointer");
+  }
   if (address == nullptr) {
     return Undefined{};
   }
@@ -208,7 +227,7 @@ Value Executor::pointer(Frame& frame, const llvm::GetElementPtrInst& instruction
     const Value position = operand(frame, it.getOperand());
     const auto* number = position.as<Register>();
     if (number == nullptr) {
-      return Undefined{};
+      throw LiftError("an index that is not defined");
     }
     if (llvm::StructType* structure = it.getStructTypeOrNull()) {
       offset += static_cast<std::int64_t>(layout.getStructLayout(structure)->getElementOffset(
@@ -221,7 +240,11 @@ Value Executor::pointer(Frame& frame, const llvm::GetElementPtrInst& instruction
     } else if (index >= 0) {
       throw LiftError("two indices that depend on the state");
     } else {
-      index = number->number;
+      // Indices have a sign; those of 32 bits are outside of any table where they are negative.
+      constexpr int kFewBits = 32;
+      index = graph_.format(number->number).bits >= kFewBits
+                  ? number->number
+                  : graph_.make(Operation::sext, {false, kFewBits}, {number->number});
       stride = size;
     }
   }

@@ -20,9 +20,11 @@
 
 namespace veritrack::lift {
 
-/// What has to be 0 for the listing to say what the program does.
+/// What has to be 0 for the listing to say what the program does, wherever the bits of `path` are 1.
 struct Condition {
   int must_be_zero = -1;
+  std::vector<int> path;
+  int of = -1;  ///< the register whose value is undefined otherwise; -1: the program must not get there
   std::string why;
   Place place;
 };
@@ -58,32 +60,50 @@ class Executor {
     std::map<const llvm::BasicBlock*, std::set<const llvm::BasicBlock*>> reaches;
   };
   enum class Ended { at_stop, returned, dead };
-  struct Step {  ///< where a block goes on
-    enum class Kind { jump, branch, returned, dead } kind = Kind::jump;
-    const llvm::BasicBlock* yes = nullptr;
-    const llvm::BasicBlock* no = nullptr;
-    int condition = -1;
+  struct Arm {
+    int condition = -1;  ///< -1: none of those before
+    const llvm::BasicBlock* target = nullptr;
+  };
+  struct Step {  ///< where a block goes on: the first arm whose condition holds
+    enum class Kind { goes_on, returned, dead } kind = Kind::goes_on;
+    std::vector<Arm> arms;
+  };
+  struct Way {  ///< what one of several ways has left
+    Ended ended = Ended::dead;
+    Environment values;
+    Memory::Contents contents;
+    std::optional<Value> result;
   };
 
   // branches.cpp
   [[nodiscard]] Ended run(Frame& frame, const llvm::BasicBlock* block, const llvm::BasicBlock* stop);
-  [[nodiscard]] std::optional<Ended> branch(Frame& frame, const Step& step, const llvm::BasicBlock*& block);
+  [[nodiscard]] std::optional<Ended> branch(Frame& frame, const std::vector<Arm>& arms,
+                                            const llvm::BasicBlock*& block);
+  [[nodiscard]] Way follow(Frame& frame, const llvm::BasicBlock& from, const llvm::BasicBlock& target);
+  [[nodiscard]] Way follow_arms(Frame& frame, const llvm::BasicBlock& from, llvm::ArrayRef<Arm> arms);
+  [[nodiscard]] Way merged(int condition, Way yes, Way no);
   void enter(Frame& frame, const llvm::BasicBlock& block, const llvm::BasicBlock& from);
   const Shape& shape_of(const llvm::Function& function);
-  void require_zero(int condition, const std::string& why);
-  [[nodiscard]] const llvm::BasicBlock* leave_loop(Frame& frame, const Step& step,
+  void require_zero(int condition, const std::string& why, int of = -1);
+  [[nodiscard]] const llvm::BasicBlock* leave_loop(Frame& frame, const std::vector<Arm>& arms,
                                                    const llvm::BasicBlock* block);
   [[nodiscard]] std::optional<bool> decided(int condition);
+  [[nodiscard]] std::vector<Arm> undecided(const std::vector<Arm>& arms);
   // executor.cpp
   [[nodiscard]] std::optional<Step> execute(Frame& frame, const llvm::Instruction& instruction);
   [[nodiscard]] Step terminator(Frame& frame, const llvm::Instruction& instruction);
   [[nodiscard]] Value operand(Frame& frame, const llvm::Value* value);
   [[nodiscard]] Value pointer(Frame& frame, const llvm::GetElementPtrInst& instruction);
   [[nodiscard]] Value moved(const Value& base, std::int64_t offset, int index, std::int64_t stride);
+  // definedness.cpp
+  void require_defined(const llvm::Instruction& instruction, const std::vector<int>& operands, int result);
+  [[nodiscard]] int overflow(unsigned opcode, const std::vector<int>& operands, int result);
+  [[nodiscard]] int out_of_range(const llvm::Instruction& instruction, int number, int result);
   // arithmetic.cpp
   [[nodiscard]] Value arithmetic(Frame& frame, const llvm::Instruction& instruction);
-  [[nodiscard]] Value on_scalars(const llvm::Instruction& instruction, llvm::Type* type, const Value& a,
-                                 const Value& b);
+  [[nodiscard]] Value on_scalars(const llvm::Instruction& instruction, llvm::Type* type,
+                                 llvm::ArrayRef<Value> operands);
+  [[nodiscard]] Value frozen(llvm::Type* type, const Value& value);
   [[nodiscard]] Value on_pointers(const llvm::Instruction& instruction, const Value& a, const Value& b);
   [[nodiscard]] Value cast(const llvm::CastInst& instruction, const Value& value);
   [[nodiscard]] Value cast_vector(const llvm::CastInst& instruction, const Value& value);
@@ -94,12 +114,14 @@ class Executor {
   [[nodiscard]] std::optional<Value> known_function(Frame& frame, const llvm::CallBase& instruction,
                                                     const std::string& name,
                                                     const std::vector<Value>& arguments);
-  [[nodiscard]] std::optional<Value> of_library(const std::string& name, llvm::Type* type,
+  [[nodiscard]] std::optional<Value> of_library(const llvm::CallBase& instruction, const std::string& name,
                                                 const std::vector<Value>& arguments);
   [[nodiscard]] std::optional<Value> of_memory(const llvm::CallBase& instruction, const std::string& name,
                                                const std::vector<Value>& arguments);
-  [[nodiscard]] std::optional<Value> of_integers(const std::string& name,
+  [[nodiscard]] std::optional<Value> of_integers(const llvm::CallBase& instruction, const std::string& name,
                                                  const std::vector<Value>& arguments);
+  [[nodiscard]] std::optional<Value> of_lifetimes(const std::string& name,
+                                                  const std::vector<Value>& arguments);
 
   const llvm::Module* module_;
   Graph graph_;
@@ -110,7 +132,7 @@ class Executor {
   std::vector<int> path_;  ///< the conditions of the ways that are open
   std::vector<std::string> files_;
   int depth_ = 0;
-  std::int64_t executed_ = 0;
+  std::int64_t executed_ = 0;  ///< instructions, since the outermost call
 };
 
 }  // namespace veritrack::lift

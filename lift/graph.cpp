@@ -19,6 +19,13 @@ bool is_of_library(Operation operation) {
   return operation >= Operation::sin && operation <= Operation::tanh;
 }
 
+/// Whether the result alone is undefined where the operation is: a value that may not be used. Divisions by 0
+/// end the program.
+bool only_result_is_undefined(Operation operation) {
+  return operation == Operation::fptosi || operation == Operation::fptoui || operation == Operation::shl ||
+         operation == Operation::lshr || operation == Operation::ashr;
+}
+
 }  // namespace
 
 int Graph::put(Instruction instruction) {
@@ -77,6 +84,9 @@ int Graph::make(Operation operation, Format format, std::vector<int> operands, P
     try {
       return constant(format, trackers::code::value_of(instruction, values, formats));
     } catch (const trackers::code::UndefinedOperation& error) {
+      if (only_result_is_undefined(operation)) {
+        return constant(format, 0);  // the executor requires that it is not used
+      }
       throw LiftError(error.what());
     }
   }
@@ -114,6 +124,15 @@ int Graph::simpler(const Instruction& instruction) {
 
 int Graph::simpler_of_integers(const Instruction& instruction) {
   const Operation operation = instruction.operation;
+  if (instruction.format == kBit && operation == Operation::bit_and) {
+    const auto [x, y, unused] = instruction.operands;
+    if (x == y) {
+      return x;
+    }
+    if (negated(x) == y || negated(y) == x) {
+      return bit(false);
+    }
+  }
   for (const auto& [x, y] : {std::pair(instruction.operands[0], instruction.operands[1]),
                              std::pair(instruction.operands[1], instruction.operands[0])}) {
     const bool is_zero = is_known(y) && bits(y) == 0;
@@ -158,7 +177,7 @@ int Graph::simpler_comparison(const Instruction& instruction) {
   return instruction.predicate == Predicate::ne ? widened : negated(widened);
 }
 
-int Graph::element(Format format, int index, const std::vector<std::uint64_t>& table) {
+int Graph::element(Format format, int index, const std::vector<std::uint64_t>& table, bool is_of_library) {
   Instruction instruction;
   instruction.operation = Operation::table;
   instruction.format = format;
@@ -167,6 +186,9 @@ int Graph::element(Format format, int index, const std::vector<std::uint64_t>& t
   instruction.table = static_cast<int>(found - tables_.begin());
   if (found == tables_.end()) {
     tables_.push_back(table);
+  }
+  if (is_of_library) {
+    tables_of_library_.insert(instruction.table);
   }
   return put(instruction);
 }
@@ -188,32 +210,45 @@ int Graph::reinterpreted(int value, Format format) {
 }
 
 bool Graph::is_free_of_inputs(int value) {
-  free_of_inputs_.resize(instructions_.size(), -1);
-  int& known = free_of_inputs_[static_cast<std::size_t>(value)];
-  if (known < 0) {
-    const Instruction& instruction = at(value);
+  // Operands come before what is made of them, so that one pass over the new ones is enough.
+  for (auto i = free_of_inputs_.size(); i <= static_cast<std::size_t>(value); ++i) {
+    const Instruction& instruction = instructions_[i];
     bool is_free = instruction.operation != Operation::input;
     for (const int operand : instruction.operands) {
-      is_free = is_free && (operand < 0 || is_free_of_inputs(operand));
+      is_free = is_free && (operand < 0 || free_of_inputs_[static_cast<std::size_t>(operand)]);
     }
-    free_of_inputs_[static_cast<std::size_t>(value)] = is_free ? 1 : 0;
-    return is_free;
+    free_of_inputs_.push_back(is_free);
   }
-  return known == 1;
+  return free_of_inputs_[static_cast<std::size_t>(value)];
 }
 
 std::uint64_t Graph::computed_here(int value) {
-  const Instruction& instruction = at(value);
-  std::array<std::uint64_t, 3> values{};
-  std::array<Format, 3> formats{};
-  for (std::size_t k = 0; k < 3 && instruction.operands[k] >= 0; ++k) {
-    values[k] = computed_here(instruction.operands[k]);
-    formats[k] = format(instruction.operands[k]);
+  std::vector<bool> needed(static_cast<std::size_t>(value) + 1, false);
+  needed.back() = true;
+  for (auto i = needed.size(); i-- > 0;) {
+    for (const int operand : instructions_[i].operands) {
+      if (needed[i] && operand >= 0) {
+        needed[static_cast<std::size_t>(operand)] = true;
+      }
+    }
   }
-  if (instruction.operation == Operation::table) {
-    return tables_[static_cast<std::size_t>(instruction.table)].at(values[0]);
+  std::vector<std::uint64_t> computed(needed.size(), 0);
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if (!needed[i]) {
+      continue;
+    }
+    const Instruction& instruction = instructions_[i];
+    std::array<std::uint64_t, 3> values{};
+    std::array<Format, 3> formats{};
+    for (std::size_t k = 0; k < 3 && instruction.operands[k] >= 0; ++k) {
+      values[k] = computed[static_cast<std::size_t>(instruction.operands[k])];
+      formats[k] = format(instruction.operands[k]);
+    }
+    computed[i] = instruction.operation == Operation::table
+                      ? tables_[static_cast<std::size_t>(instruction.table)].at(values[0])
+                      : trackers::code::value_of(instruction, values, formats);
   }
-  return trackers::code::value_of(instruction, values, formats);
+  return computed.back();
 }
 
 }  // namespace veritrack::lift

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,10 +27,12 @@ class Graph {
   [[nodiscard]] int bit(bool value) { return constant(trackers::code::kBit, value ? 1 : 0); }
   /// A new input.
   [[nodiscard]] int input(Format format);
-  /// The register of an operation on registers. Throws LiftError where it is undefined for known operands.
+  /// The register of an operation on registers. Throws LiftError for a known division by 0; where the result
+  /// alone is undefined for known operands, it is 0.
   [[nodiscard]] int make(Operation operation, Format format, std::vector<int> operands,
                          Predicate predicate = Predicate::none);
-  [[nodiscard]] int element(Format format, int index, const std::vector<std::uint64_t>& table);
+  [[nodiscard]] int element(Format format, int index, const std::vector<std::uint64_t>& table,
+                            bool is_of_library);
   [[nodiscard]] int select(int condition, int yes, int no);
   [[nodiscard]] int negated(int condition);
   [[nodiscard]] int both(int a, int b);
@@ -53,6 +56,8 @@ class Graph {
   [[nodiscard]] Place place() const { return place_; }
   [[nodiscard]] std::size_t size() const { return instructions_.size(); }
   [[nodiscard]] const std::vector<std::vector<std::uint64_t>>& tables() const { return tables_; }
+  /// Those whose elements the library of this machine has computed.
+  [[nodiscard]] const std::set<int>& tables_of_library() const { return tables_of_library_; }
 
  private:
   using Key = std::tuple<Operation, bool, int, Predicate, int, int, int, int, std::uint64_t>;
@@ -66,7 +71,8 @@ class Graph {
   std::vector<Instruction> instructions_;
   std::vector<std::vector<std::uint64_t>> tables_;
   std::map<Key, int> known_;
-  std::vector<int> free_of_inputs_;  ///< -1: not known yet
+  std::vector<bool> free_of_inputs_;  ///< of the first registers
+  std::set<int> tables_of_library_;
   Place place_;
 };
 

@@ -3,24 +3,22 @@
 #include <llvm/IR/DebugInfoMetadata.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "lift/cell_names.hpp"
+#include "lift/obligations.hpp"
+#include "lift/renaming.hpp"
+#include "lift/steps.hpp"
 
 namespace veritrack::lift {
 
 namespace {
 
 using trackers::code::Listing;
-
-/// Modes that are set in the first steps have settled after this many.
-constexpr int kMostSettling = 64;
-
-/// An object and an offset.
-using Place2 = std::pair<int, std::int64_t>;
 
 /// The function of a harness, by the name that the source gives it.
 const llvm::Function& function_called(const llvm::Module& module, const std::string& name) {
@@ -38,224 +36,166 @@ const llvm::Function& function_called(const llvm::Module& module, const std::str
                   "void setup(void) {...}  void step(float y) {...}  float frequency(void) {...}");
 }
 
-class Search {
- public:
-  explicit Search(Executor& executor)
-      : executor_(&executor),
-        step_(&function_called(executor.module(), "step")),
-        frequency_(&function_called(executor.module(), "frequency")) {
-    executor.construct_globals();
-    (void)executor.call(function_called(executor.module(), "setup"), {});
-    base_ = executor.memory().contents();
-    objects_ = executor.memory().objects();
-    for (const llvm::Argument& argument : step_->args()) {
-      if (!argument.getType()->isFloatTy() && !argument.getType()->isDoubleTy()) {
-        throw LiftError("an argument of step that is no number; allowed: one or two of float or double");
-      }
-      samples_.push_back(executor.graph().input(executor.memory().format_of(argument.getType())));
+/// The name without its last index: ring.past of ring.past_3.
+std::string without_index(const std::string& name) {
+  for (std::size_t at = name.rfind('_'); at != std::string::npos && at > 0; at = name.rfind('_', at - 1)) {
+    const std::size_t end = std::min(name.find('.', at), name.size());
+    const bool is_index =
+        end > at + 1 && std::all_of(name.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                                    name.begin() + static_cast<std::ptrdiff_t>(end),
+                                    [](char letter) { return letter >= '0' && letter <= '9'; });
+    if (is_index) {
+      return name.substr(0, at) + name.substr(end);
     }
-    if (samples_.empty() || samples_.size() > 2) {
-      throw LiftError("step has " + std::to_string(samples_.size()) +
-                      " arguments; allowed: one sample or two");
+  }
+  return name;
+}
+
+/// A state of the listing: its cell before the first position, and the one after its step.
+struct Named {
+  Spot before, after;
+  std::string name;
+};
+
+class Writer {
+ public:
+  Writer(Executor& executor, const llvm::Function& step, const Orbit& orbit)
+      : executor_(&executor), step_(&step), orbit_(&orbit) {
+    const std::size_t count = orbit.positions.size();
+    needed_ = needed_states(executor, orbit);
+    std::vector<std::vector<Required>> required;
+    for (std::size_t p = 0; p < count; ++p) {
+      required.push_back(obligations_of(executor.graph(), orbit.positions[p], needed_[(p + 1) % count]));
+    }
+    std::map<Spot, Spot> names;
+    if (count > 1) {
+      names = renamings(executor, orbit, needed_, required).front();
+    }
+    required_ = required.front();
+    for (const Spot& spot : needed_.front()) {
+      states_.push_back({spot, count > 1 ? names.at(spot) : spot, ""});
+      states_.back().name = name_of(states_.back());
+    }
+    if (states_.empty()) {
+      throw LiftError("the frequency does not depend on anything that step changes");
     }
   }
 
-  [[nodiscard]] Listing found() {
-    while (grows()) {
+  [[nodiscard]] Listing written() {
+    const Position& position = orbit_->positions.front();
+    std::vector<int> roots = orbit_->samples;
+    roots.push_back(position.frequency);
+    for (const Named& state : states_) {
+      roots.push_back(orbit_->states.at(state.before).input);
+      roots.push_back(position.next.at(state.after));
     }
-    return listing();
+    for (const Required& required : required_) {
+      roots.push_back(required.must_be_zero);
+    }
+    write_operations(needed_by(executor_->graph(), roots));
+    write_inputs();
+    for (const Named& state : states_) {
+      const StateCell& cell = orbit_->states.at(state.before);
+      if (!cell.start) {
+        throw LiftError(state.name + " is read before anything has set it; allowed: all states set in setup");
+      }
+      listing_.states.push_back(
+          {state.name, number_.at(cell.input), number_.at(position.next.at(state.after)), *cell.start});
+    }
+    listing_.frequency = number_.at(position.frequency);
+    for (const Required& required : required_) {
+      listing_.obligations.push_back(
+          {number_.at(required.must_be_zero), required.condition->why, required.condition->place});
+    }
+    listing_.files = executor_->files();
+    listing_.steps_before = orbit_->steps_before;
+    return std::move(listing_);
   }
 
  private:
-  struct Found {
-    int input = -1;
-    int next = -1;
-    std::uint64_t start = 0;
-  };
-
-  [[nodiscard]] Graph& graph() { return executor_->graph(); }
-  [[nodiscard]] Memory& memory() { return executor_->memory(); }
-
-  void set_states() {
-    memory().restore(base_);
-    for (const auto& [place, state] : states_) {
-      const Cells& cells = memory().cells(place.first);
-      const auto cell = cells.find(place.second);
-      memory().put(place.first, place.second, {cell->second.size, Register{state.input}});
+  /// The cell's name; that of a value which moves through a ring has its age.
+  [[nodiscard]] std::string name_of(const Named& state) {
+    const std::string cell = cell_name(executor_->memory().object(state.before.first), state.before.second);
+    const int age = state.before == state.after ? 0 : age_of(*orbit_, state.before);
+    const std::string name = without_index(cell) + "_" + std::to_string(age) + "_ago";
+    if (age > 0 && taken_.insert(name).second) {
+      return name;
     }
+    std::string free = cell;
+    for (int i = 2; !taken_.insert(free).second; ++i) {  // static variables of several functions
+      free = cell + "_" + std::to_string(i);
+    }
+    return free;
   }
 
-  /// Runs a step; true when it changes a cell that is no state yet.
-  [[nodiscard]] bool grows() {
-    executor_->conditions().clear();
-    set_states();
-    for (auto& [place, state] : states_) {
-      state.next = state.input;  // unless the step changes it
-    }
-    std::vector<Value> arguments;
-    for (const int sample : samples_) {
-      arguments.emplace_back(Register{sample});
-    }
-    const Memory::Contents before = memory().contents();
-    (void)executor_->call(*step_, arguments);
-    const Memory::Contents after = memory().contents();
-    bool has_grown = false;
-    for (int object = 0; object < objects_; ++object) {
-      for (const auto& [offset, cell] : *after[static_cast<std::size_t>(object)]) {
-        const Cells& old = *before[static_cast<std::size_t>(object)];
-        const auto was = old.find(offset);
-        if (was == old.end() || was->second == cell) {
-          continue;
-        }
-        has_grown = take({object, offset}, was->second, cell) || has_grown;
-      }
-    }
-    return has_grown;
-  }
-
-  /// A cell that the step has changed; true when it becomes a state, or settles.
-  [[nodiscard]] bool take(Place2 place, const Cell& was, const Cell& is) {
-    const auto known = states_.find(place);
-    const auto* next = is.value.as<Register>();
-    if (known != states_.end()) {
-      if (next == nullptr) {
-        throw LiftError(name_of(place) + " is not defined after a step");
-      }
-      known->second.next = next->number;
-      return false;
-    }
-    const auto* old = was.value.as<Register>();
-    if (next == nullptr || old == nullptr) {
-      if (is.value.is_undefined()) {
-        return false;
-      }
-      throw LiftError("the pointer " + cell_name(memory().object(place.first), place.second) +
-                      " changes from step to step; allowed: pointers that setup has set");
-    }
-    const bool is_mode = !graph().format(next->number).is_float && graph().is_known(next->number);
-    if (is_mode && ++settling_[place] <= kMostSettling) {
-      memory().restore(base_);
-      memory().put(place.first, place.second, is);
-      base_ = memory().contents();
-      return true;
-    }
-    if (was.size != is.size) {
-      throw LiftError("memory is read in pieces of two sizes in " + memory().object(place.first).name);
-    }
-    std::uint64_t start = 0;
-    if (graph().is_free_of_inputs(old->number)) {
-      start = graph().computed_here(old->number);
-    }
-    Found state;
-    state.input = graph().input(graph().format(next->number));
-    state.start = start;
-    states_[place] = state;
-    return true;
-  }
-
-  /// What the registers need: a mark for each.
-  void mark(int value, std::vector<bool>& marked) {
-    if (value < 0 || marked[static_cast<std::size_t>(value)]) {
-      return;
-    }
-    marked[static_cast<std::size_t>(value)] = true;
-    for (const int operand : graph().at(value).operands) {
-      mark(operand, marked);
-    }
-  }
-
-  [[nodiscard]] std::string name_of(Place2 place) {
-    return cell_name(memory().object(place.first), place.second);
-  }
-
-  [[nodiscard]] Listing listing() {
-    std::vector<Condition> conditions = executor_->conditions();
-    executor_->conditions().clear();
-    set_states();
-    const Value estimate = executor_->call(*frequency_, {});
-    const auto* frequency = estimate.as<Register>();
-    if (frequency == nullptr || !graph().format(frequency->number).is_float) {
-      throw LiftError(
-          "frequency returns no number that is defined; allowed: float frequency(void), in rad/sample");
-    }
-    conditions.insert(conditions.end(), executor_->conditions().begin(), executor_->conditions().end());
-    std::vector<bool> marked(graph().size(), false);
-    mark(frequency->number, marked);
-    for (const Condition& condition : conditions) {
-      mark(condition.must_be_zero, marked);
-    }
-    bool grows = true;
-    std::set<Place2> needed;
-    while (grows) {
-      grows = false;
-      for (const auto& [place, state] : states_) {
-        if (marked[static_cast<std::size_t>(state.input)] && needed.insert(place).second) {
-          mark(state.next, marked);
-          grows = true;
-        }
-      }
-    }
-    for (const int sample : samples_) {
-      marked[static_cast<std::size_t>(sample)] = true;
-    }
-    return written(frequency->number, conditions, marked, needed);
-  }
-
-  [[nodiscard]] Listing written(int frequency, const std::vector<Condition>& conditions,
-                                const std::vector<bool>& marked, const std::set<Place2>& needed) {
-    Listing listing;
-    listing.files = executor_->files();
-    listing.tables = graph().tables();
-    std::map<int, int> number{{-1, -1}};
-    for (std::size_t value = 0; value < marked.size(); ++value) {
-      if (!marked[value]) {
+  void write_operations(const std::vector<bool>& needed) {
+    const Graph& graph = executor_->graph();
+    std::map<int, int> tables;
+    for (std::size_t value = 0; value < needed.size(); ++value) {
+      if (!needed[value]) {
         continue;
       }
-      Instruction instruction = graph().at(static_cast<int>(value));
+      Instruction instruction = graph.at(static_cast<int>(value));
       for (int& operand : instruction.operands) {
-        operand = number.at(operand);
+        operand = number_.at(operand);
       }
       if (instruction.operation == Operation::input) {
         instruction.bits = 0;
       }
-      number[static_cast<int>(value)] = static_cast<int>(listing.instructions.size());
-      listing.instructions.push_back(instruction);
+      if (instruction.table >= 0) {
+        const auto [table, is_new] =
+            tables.try_emplace(instruction.table, static_cast<int>(listing_.tables.size()));
+        if (is_new) {
+          listing_.tables.push_back(graph.tables()[static_cast<std::size_t>(instruction.table)]);
+          if (graph.tables_of_library().contains(instruction.table)) {
+            listing_.library_tables.push_back(table->second);
+          }
+        }
+        instruction.table = table->second;
+      }
+      number_[static_cast<int>(value)] = static_cast<int>(listing_.instructions.size());
+      listing_.instructions.push_back(instruction);
     }
+  }
+
+  void write_inputs() {
     for (const llvm::Argument& argument : step_->args()) {
       const std::string name = argument.getName().str();
-      listing.sample_names.push_back(name.empty() ? "y" + std::to_string(argument.getArgNo() + 1) : name);
-      listing.samples.push_back(number.at(samples_[argument.getArgNo()]));
+      listing_.sample_names.push_back(name.empty() ? "y" + std::to_string(argument.getArgNo() + 1) : name);
+      listing_.samples.push_back(number_.at(orbit_->samples[argument.getArgNo()]));
     }
-    for (const auto& [place, state] : states_) {
-      if (needed.contains(place)) {
-        listing.states.push_back(
-            {name_of(place), number.at(state.input), number.at(state.next), state.start});
-      }
-    }
-    listing.frequency = number.at(frequency);
-    for (const Condition& condition : conditions) {
-      listing.obligations.push_back({number.at(condition.must_be_zero), condition.why, condition.place});
-    }
-    if (listing.states.empty()) {
-      throw LiftError("the frequency does not depend on anything that step changes");
-    }
-    return listing;
   }
 
   Executor* executor_;
   const llvm::Function* step_;
-  const llvm::Function* frequency_;
-  Memory::Contents base_;  ///< after setup
-  int objects_ = 0;        ///< that are there after setup
-  std::vector<int> samples_;
-  std::map<Place2, Found> states_;
-  std::map<Place2, int> settling_;
+  const Orbit* orbit_;
+  std::vector<std::set<Spot>> needed_;
+  std::vector<Required> required_;
+  std::vector<Named> states_;
+  std::set<std::string> taken_;
+  std::map<int, int> number_{{-1, -1}};
+  Listing listing_;
 };
 
 }  // namespace
 
 Listing lifted(Executor& executor) {
-  return Search(executor).found();
+  const llvm::Function& setup = function_called(executor.module(), "setup");
+  const llvm::Function& step = function_called(executor.module(), "step");
+  const llvm::Function& frequency = function_called(executor.module(), "frequency");
+  Steps steps(executor, setup, step, frequency);
+  const Orbit orbit = steps.orbit();
+  try {
+    return Writer(executor, step, orbit).written();
+  } catch (const StepsDiffer& error) {
+    const std::string text = error.what();
+    try {
+      const Orbit without = steps.orbit_of_states();
+      return Writer(executor, step, without).written();
+    } catch (const LiftError&) {
+      throw LiftError(text);  // e.g. an index cannot be a state
+    }
+  }
 }
 
 }  // namespace veritrack::lift

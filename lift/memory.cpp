@@ -25,7 +25,8 @@ int Memory::add(Object object) {
     throw LiftError(object.name + " has more than a million bytes");
   }
   objects_.push_back(std::move(object));
-  contents_.push_back(std::make_shared<const Cells>());
+  contents_.resize(objects_.size());
+  contents_.back() = std::make_shared<Cells>();
   return objects() - 1;
 }
 
@@ -38,20 +39,68 @@ const Cells& Memory::cells(int object) const {
 Cells& Memory::changeable(int object) {
   contents_.resize(objects_.size());
   auto& held = contents_[static_cast<std::size_t>(object)];
-  auto copy = std::make_shared<Cells>(cells(object));
-  Cells& cells = *copy;
-  held = std::move(copy);
-  return cells;
+  if (!held || held.use_count() > 1) {
+    held = std::make_shared<Cells>(cells(object));
+  }
+  return *held;
 }
 
 void Memory::put(int object, std::int64_t offset, Cell cell) {
   Cells& cells = changeable(object);
-  const std::int64_t end = offset + cell.size;
-  for (auto it = cells.begin(); it != cells.end();) {
-    const bool overlaps = it->first < end && it->first + it->second.size > offset;
-    it = overlaps ? cells.erase(it) : std::next(it);
-  }
+  make_room(cells, offset, cell.size);
   cells[offset] = std::move(cell);
+}
+
+/// Takes away what is at some bytes; cells that stick out are cut, where they are known.
+void Memory::make_room(Cells& cells, std::int64_t offset, std::int64_t bytes) {
+  const std::int64_t end = offset + bytes;
+  auto it = cells.lower_bound(offset);
+  if (it != cells.begin() && std::prev(it)->first + std::prev(it)->second.size > offset) {
+    --it;
+  }
+  std::vector<std::pair<std::int64_t, Cell>> cut;
+  while (it != cells.end() && it->first < end) {
+    const std::int64_t begin = it->first;
+    const std::int64_t behind = begin + it->second.size;
+    const Value& value = it->second.value;
+    if ((begin < offset || behind > end) && !value.is_undefined()) {
+      const std::optional<std::uint64_t> bits = known_bits(cells, begin, it->second.size);
+      if (!bits) {
+        throw LiftError("a part of a value of " + std::to_string(it->second.size) + " bytes is written");
+      }
+      for (std::int64_t at = begin; at < behind; ++at) {
+        if (at < offset || at >= end) {
+          const std::uint64_t byte = *bits >> static_cast<unsigned>(8 * (at - begin));
+          cut.emplace_back(at, Cell{1, Register{graph_->constant({false, 8}, byte)}});
+        }
+      }
+    }
+    it = cells.erase(it);
+  }
+  cells.insert(cut.begin(), cut.end());
+}
+
+std::optional<std::uint64_t> Memory::known_bits(const Cells& cells, std::int64_t offset,
+                                                std::int64_t bytes) const {
+  std::uint64_t bits = 0;
+  for (std::int64_t at = offset; at < offset + bytes; ++at) {
+    auto cell = cells.upper_bound(at);
+    if (cell == cells.begin() || std::prev(cell)->first + std::prev(cell)->second.size <= at) {
+      continue;
+    }
+    --cell;
+    if (cell->second.value.is_undefined()) {
+      continue;
+    }
+    const auto* number = cell->second.value.as<Register>();
+    if (number == nullptr || !graph_->is_known(number->number)) {
+      return std::nullopt;
+    }
+    const std::uint64_t byte =
+        (graph_->bits(number->number) >> static_cast<unsigned>(8 * (at - cell->first))) & 0xff;
+    bits |= byte << static_cast<unsigned>(8 * (at - offset));
+  }
+  return bits;
 }
 
 Format Memory::format_of(llvm::Type* type) const {
@@ -75,6 +124,10 @@ std::int64_t Memory::size_of(llvm::Type* type) const {
   return static_cast<std::int64_t>(layout_->getTypeAllocSize(type).getFixedSize());
 }
 
+std::int64_t Memory::written_size_of(llvm::Type* type) const {
+  return static_cast<std::int64_t>(layout_->getTypeStoreSize(type).getFixedSize());
+}
+
 std::pair<llvm::Type*, std::int64_t> Memory::part(llvm::Type* type, unsigned i) const {
   if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
     if (i >= structure->getNumElements()) {
@@ -89,6 +142,9 @@ std::pair<llvm::Type*, std::int64_t> Memory::part(llvm::Type* type, unsigned i) 
   }
   auto* vector = llvm::cast<llvm::FixedVectorType>(type);
   llvm::Type* element = vector->getElementType();
+  if (static_cast<std::int64_t>(layout_->getTypeSizeInBits(element).getFixedSize()) != 8 * size_of(element)) {
+    throw LiftError("a vector whose elements are not bytes, in memory");
+  }
   return i < vector->getNumElements() ? std::pair(element, i * size_of(element)) : std::pair(nullptr, 0L);
 }
 
@@ -145,9 +201,8 @@ Value Memory::constant(const llvm::Constant& constant,
 void Memory::initialize(int object, std::int64_t offset, const llvm::Constant& constant,
                         const std::map<const llvm::GlobalValue*, int>& globals) {
   llvm::Type* type = constant.getType();
-  if (constant.isNullValue() && !type->isPointerTy() && is_aggregate(type)) {
-    fill_with_zeros(object, offset, size_of(type));
-    return;
+  if (is_aggregate(type)) {
+    fill_with_zeros(object, offset, size_of(type));  // padding, too
   }
   const bool read_only = std::exchange(objects_[static_cast<std::size_t>(object)].read_only, false);
   store_at({object, offset, -1, 0}, type, this->constant(constant, globals));
@@ -168,75 +223,10 @@ Address Memory::known(const Value& address, const char* purpose) const {
   if (place == nullptr || place->object < 0) {
     throw LiftError(std::string(purpose) + " through a null or an unknown pointer");
   }
+  if (const Object& object = objects_[static_cast<std::size_t>(place->object)]; object.is_gone) {
+    throw LiftError(std::string(purpose) + " of " + object.name + ", which is not there any more");
+  }
   return *place;
-}
-
-Value Memory::select(int condition, const Value& yes, const Value& no) {
-  if (yes == no) {
-    return yes;
-  }
-  if (yes.is_undefined() || no.is_undefined()) {
-    // An undefined value may be any, also that of the other way.
-    return yes.is_undefined() ? no : yes;
-  }
-  const auto* a = yes.as<Parts>();
-  const auto* b = no.as<Parts>();
-  if (a != nullptr && b != nullptr) {
-    Parts parts;
-    for (std::size_t i = 0; i < a->parts.size(); ++i) {
-      parts.parts.push_back(select(condition, a->parts[i], b->parts.at(i)));
-    }
-    return parts;
-  }
-  const auto* x = yes.as<Register>();
-  const auto* y = no.as<Register>();
-  if (x != nullptr && y != nullptr) {
-    return Register{
-        graph_->select(condition, x->number, graph_->reinterpreted(y->number, graph_->format(x->number)))};
-  }
-  if (x != nullptr || y != nullptr) {
-    throw LiftError("a number on one way and a pointer on the other");
-  }
-  if (graph_->is_known(condition)) {
-    return graph_->bits(condition) != 0 ? yes : no;
-  }
-  return Choice{condition, std::make_shared<const Value>(yes), std::make_shared<const Value>(no)};
-}
-
-void Memory::merge(int condition, const Contents& yes, const Contents& no) {
-  Contents merged(objects_.size());
-  for (std::size_t object = 0; object < merged.size(); ++object) {
-    const auto held = [&](const Contents& contents) {
-      return object < contents.size() ? contents[object] : nullptr;
-    };
-    const auto a = held(yes);
-    const auto b = held(no);
-    if (a == b || !a || !b) {
-      merged[object] = a ? a : b;
-      continue;
-    }
-    auto cells = std::make_shared<Cells>(*a);
-    for (const auto& [offset, cell] : *b) {
-      const auto other = cells->find(offset);
-      if (other == cells->end()) {
-        const auto overlaps =
-            std::any_of(a->begin(), a->end(), [&, at = offset, size = cell.size](const auto& entry) {
-              return entry.first < at + size && entry.first + entry.second.size > at;
-            });
-        if (overlaps) {
-          throw LiftError("memory is read in pieces of two sizes in " + objects_[object].name);
-        }
-        (*cells)[offset] = cell;
-      } else if (!(other->second == cell)) {
-        if (other->second.size != cell.size) {
-          throw LiftError("memory is read in pieces of two sizes in " + objects_[object].name);
-        }
-        other->second.value = select(condition, other->second.value, cell.value);
-      }
-    }
-    merged[object] = std::move(cells);
-  }
-  contents_ = std::move(merged);
 }
 
 }  // namespace veritrack::lift

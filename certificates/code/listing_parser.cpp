@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "certificates/code/listing_formats.hpp"
 #include "certificates/code/listing_text.hpp"
 
 namespace veritrack::certificates::code {
@@ -39,9 +40,15 @@ class ListingParser {
       if (state.next < 0) {
         fail(fmt::format("{} has no next value", state.name));
       }
+      if (format_of(state.next) != format_of(state.input)) {
+        fail(fmt::format("the next {} has another format", state.name));
+      }
     }
     if (listing_.frequency < 0 || listing_.states.empty() || listing_.samples.empty()) {
       fail("a listing without a frequency, states or samples");
+    }
+    if (!format_of(listing_.frequency).is_float) {
+      fail("the frequency is no number");
     }
     return std::move(listing_);
   }
@@ -49,6 +56,10 @@ class ListingParser {
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw ListingError(fmt::format("line {} of a listing: {}", number_, what));
+  }
+
+  [[nodiscard]] Format format_of(int value) const {
+    return listing_.instructions[static_cast<std::size_t>(value)].format;
   }
 
   [[nodiscard]] bool take_line() {
@@ -110,7 +121,7 @@ class ListingParser {
 
   /// A place behind the words, if there is one, which is taken away.
   [[nodiscard]] Place place() {
-    if (words_.back().front() != '@') {
+    if (words_.back().substr(0, 1) != "@") {
       return {};
     }
     std::string_view text = words_.back().substr(1);
@@ -121,6 +132,9 @@ class ListingParser {
       text.remove_prefix(std::min(text.size(), end == std::string_view::npos ? text.size() : end + 1));
     }
     words_.pop_back();
+    if (parts[0] < 0 || static_cast<std::size_t>(parts[0]) >= listing_.files.size()) {
+      fail("a place in a file that is not named");
+    }
     return {parts[0], parts[1], parts[2]};
   }
 
@@ -196,9 +210,17 @@ class ListingParser {
       listing_.sample_names.push_back(rest_from(3));
     } else if (first == "state") {
       read_state();
-    } else if (first == "table") {
+    } else if (first == "steps-before") {
+      if (words_.size() != 2 || listing_.steps_before != 0) {
+        fail("two numbers of steps before");
+      }
+      listing_.steps_before = integer<int>(word(1));
+    } else if (first == "table" || first == "library-table") {
       if (word(1) != fmt::format("t{}", listing_.tables.size())) {
         fail("tables are not in order");
+      }
+      if (first == "library-table") {
+        listing_.library_tables.push_back(static_cast<int>(listing_.tables.size()));
       }
       listing_.tables.emplace_back();
       for (std::size_t i = 2; i < words_.size(); ++i) {
@@ -237,7 +259,10 @@ class ListingParser {
   void read_obligation() {
     trackers::code::Obligation obligation{value(word(1)), "", {}};
     std::size_t text = 2;
-    if (word(2).front() == '@') {
+    if (format_of(obligation.must_be_zero) != trackers::code::kBit) {
+      fail("what must be 0 is no bit");
+    }
+    if (word(2).substr(0, 1) == "@") {
       const std::vector<std::string_view> all = words_;
       words_.resize(3);
       obligation.place = place();
@@ -255,6 +280,9 @@ class ListingParser {
       const std::size_t dot = rest.find('.');
       parts.push_back(rest.substr(0, dot));
       rest.remove_prefix(dot == std::string_view::npos ? rest.size() : dot + 1);
+    }
+    if (parts.empty()) {
+      fail("no operation");
     }
     const auto* found =
         std::find_if(trackers::code::kOperationNames.begin(), trackers::code::kOperationNames.end(),
@@ -302,6 +330,9 @@ class ListingParser {
     if (instruction.predicate != Predicate::none) {
       instruction.format = trackers::code::kBit;
     }
+    if (!has_fitting_formats(listing_, instruction)) {
+      fail("the formats of the operands do not fit to the operation");
+    }
     name(word(0), add(instruction));
   }
 
@@ -316,7 +347,15 @@ class ListingParser {
 }  // namespace
 
 Listing parse_listing(std::string_view text) {
-  return ListingParser(text).listing();
+  Listing listing = ListingParser(text).listing();
+  // Whatever else the reader has let pass: other orders, spaces, numbers in another form.
+  const std::string written = listing_text(listing);
+  if (written != text) {
+    const auto differs = std::mismatch(written.begin(), written.end(), text.begin(), text.end()).first;
+    throw ListingError(fmt::format("line {} of a listing is not as listings are written",
+                                   1 + std::count(written.begin(), differs, '\n')));
+  }
+  return listing;
 }
 
 }  // namespace veritrack::certificates::code

@@ -65,6 +65,9 @@ std::string listing_text(const Listing& listing) {
   for (std::size_t i = 0; i < listing.files.size(); ++i) {
     text += fmt::format("file {} {}\n", i, listing.files[i]);
   }
+  if (listing.steps_before != 0) {
+    text += fmt::format("steps-before {}\n", listing.steps_before);
+  }
   std::vector<std::string> names(listing.instructions.size());
   const auto format_of = [&](int value) {
     return format_text(listing.instructions[static_cast<std::size_t>(value)].format);
@@ -85,7 +88,10 @@ std::string listing_text(const Listing& listing) {
                         state.name);
   }
   for (std::size_t i = 0; i < listing.tables.size(); ++i) {
-    text += fmt::format("table t{}", i);
+    const auto& of_library = listing.library_tables;
+    const bool is_of_library =
+        std::find(of_library.begin(), of_library.end(), static_cast<int>(i)) != of_library.end();
+    text += fmt::format("{} t{}", is_of_library ? "library-table" : "table", i);
     for (const std::uint64_t element : listing.tables[i]) {
       text += fmt::format(" {:x}", element);
     }

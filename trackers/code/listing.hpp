@@ -158,11 +158,13 @@ struct Listing {
   std::vector<std::string> files;
   std::vector<Instruction> instructions;
   std::vector<std::vector<std::uint64_t>> tables;
+  std::vector<int> library_tables;  ///< those whose elements a library has computed: another may differ
   std::vector<std::string> sample_names;
   std::vector<int> samples;  ///< registers
   std::vector<State> states;
   int frequency = -1;  ///< the register of the estimate, from the states before the step alone
   std::vector<Obligation> obligations;
+  int steps_before = 0;  ///< the list says what steps do after the first ones, in which modes settle
 };
 
 /// The name and the number of operands of an operation.

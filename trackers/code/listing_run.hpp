@@ -290,8 +290,8 @@ template <typename Real>
       on_numbers(instruction.operation, number_as<double>(a), number_as<double>(b), number_as<double>(c)));
 }
 
-/// All registers of a listing, for states and samples given as bits. Throws UndefinedOperation, also for an
-/// index outside its table.
+/// All registers of a listing, for states and samples given as bits. The result of an operation that is not
+/// defined is 0: the obligations say that it is not used.
 [[nodiscard]] inline std::vector<std::uint64_t> run(const Listing& listing,
                                                     std::span<const std::uint64_t> states,
                                                     std::span<const std::uint64_t> samples) {
@@ -319,12 +319,13 @@ template <typename Real>
     }
     if (instruction.operation == Operation::table) {
       const std::vector<std::uint64_t>& table = listing.tables[static_cast<std::size_t>(instruction.table)];
-      if (values[0] >= table.size()) {
-        throw UndefinedOperation("an index is outside its table");
-      }
-      registers[i] = table[values[0]];
-    } else {
+      registers[i] = values[0] < table.size() ? table[values[0]] : 0;
+      continue;
+    }
+    try {
       registers[i] = value_of(instruction, values, formats);
+    } catch (const UndefinedOperation&) {
+      registers[i] = 0;
     }
   }
   return registers;

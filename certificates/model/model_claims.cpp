@@ -196,7 +196,8 @@ class ModelClaims {
 
   /// For a part of the band.
   [[nodiscard]] ModelWords words_for(std::optional<BandPart> part, const ProvedSet& set) const {
-    return ModelWords(*tables_, std::move(part), sets_->starts_in(set));
+    const ModelWords words(*tables_, std::move(part), sets_->starts_in(set));
+    return sets_->gains && sets_->gains->rounding ? words.rounded() : words;
   }
   static Claim reported(const char* id, const std::string& hypotheses) {
     Claim claim;
@@ -221,7 +222,8 @@ class ModelClaims {
   }
   /// The stability of the linear recursion of a loop that is certified by gains.
   void add_stability(const linear::RadiusBounds& radius) {
-    Claim claim = reported("model/stability", words_.constant_tone() + ", without noise");
+    const ModelWords exact(*tables_, std::nullopt, sets_->starts_in(*deciding_));
+    Claim claim = reported("model/stability", exact.constant_tone() + ", without noise");
     if (radius.upper < 1.0) {
       const std::string decay = rigor::to_decimal(radius.upper, 8, rigor::Direction::up);
       claim.values = {{"decay", decay}};

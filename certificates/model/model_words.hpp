@@ -20,20 +20,9 @@ namespace veritrack::certificates {
 /// covariance, or, in a proof by gains, in the steady state.
 enum class StartsIn { set, set_with_covariance, steady_state };
 
-/// "In exact arithmetic", and of what where the recursion is that of code.
-inline std::string arithmetic_of(const ModelTable& model) {
-  std::string text(kExactArithmetic);
-  if (!model.compiled) {
-    return text;
-  }
-  text += " of the listing of `step` and `frequency` in ";
-  const std::vector<code::CodeFile>& files = model.compiled->files;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    text += i == 0 ? "" : i + 1 == files.size() ? " and " : ", ";
-    text += fmt::format("{} (SHA-256 {:.16}...)", files[i].name, files[i].sha256);
-  }
-  return text + (model.angles.empty() ? "" : ", angles modulo 2 pi");
-}
+/// "In exact arithmetic", and of what where the recursion is that of code; or in that of the program,
+/// rounded.
+[[nodiscard]] std::string arithmetic_of(const ModelTable& model, bool is_rounded);
 
 /// The words of the hypotheses.
 class ModelWords {
@@ -42,11 +31,18 @@ class ModelWords {
   explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt,
                       StartsIn starts = StartsIn::set)
       : assume_(&tables.assume),
-        arithmetic_(arithmetic_of(tables.model)),
+        tables_(&tables),
+        arithmetic_(arithmetic_of(tables.model, false)),
         is_tone_(is_pure_tone(tables)),
         part_(std::move(part)),
         starts_(starts) {}
 
+  /// The same words of a program whose operations are rounded.
+  [[nodiscard]] ModelWords rounded() const {
+    ModelWords words = *this;
+    words.arithmetic_ = arithmetic_of(tables_->model, true);
+    return words;
+  }
   [[nodiscard]] std::string unit() const { return assume_->frequency_in_hertz ? "Hz" : "rad/sample"; }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
     const std::string signal = is_tone_ ? "a tone" : "the signal of the design file";
@@ -133,6 +129,7 @@ class ModelWords {
   }
 
   const ModelAssumptions* assume_;
+  const ModelTables* tables_;
   std::string arithmetic_;
   bool is_tone_ = false;
   std::optional<BandPart> part_;

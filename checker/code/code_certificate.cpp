@@ -64,14 +64,16 @@ void check_names(const std::vector<std::string>& names, const std::vector<std::s
 
 }  // namespace
 
-void check_code(const Tree& design, Objections& objections) {
+CheckedCode check_code(const Tree& design, Objections& objections) {
   const Tree& code = design.at("code");
   const Tree& model = design.at("model");
   check_files(code, objections);
-  const CodeListing listing = read_listing(code.at("listing").text());
+  CheckedCode result;
+  result.listing = read_listing(code.at("listing").text());
+  const CodeListing& listing = result.listing;
   if (model.find("ekf") != nullptr) {
     objections.emplace_back("code beside a filter");
-    return;
+    return result;
   }
   const std::vector<std::string> states = listed_texts(model.at("states"));
   const std::vector<std::string> samples = listed_texts(model.at("samples"));
@@ -91,24 +93,42 @@ void check_code(const Tree& design, Objections& objections) {
     }
   }
   if (!objections.empty()) {
-    return;
+    return result;
   }
   const FormulaGraph graph(states, samples, model.at("step").text(), model.at("frequency").text());
-  objections = ListingMatch(listing, graph, std::move(is_angle)).objections();
+  ListingMatch match(listing, graph, std::move(is_angle));
+  objections = match.objections();
+  if (objections.empty()) {
+    result.angles = match.angles();
+  }
+  return result;
 }
 
-std::string words_of_code(const Tree& design) {
+std::string words_of_arithmetic(const Tree& design, bool is_rounded) {
+  std::string words = is_rounded ? "In IEEE 754 arithmetic" : "In exact arithmetic";
   const Tree* code = design.find("code");
   if (code == nullptr) {
-    return "";
+    return words;
   }
   constexpr std::size_t kDigitsShown = 16;
   const std::vector<Tree>& files = code->at("files").elements();
-  std::string words = " of the listing of `step` and `frequency` in ";
+  words += " of the listing of `step` and `frequency` in ";
   for (std::size_t i = 0; i < files.size(); ++i) {
     words += i == 0 ? "" : i + 1 == files.size() ? " and " : ", ";
     words += files[i].at("name").text() + " (SHA-256 " +
              files[i].at("sha256").text().substr(0, kDigitsShown) + "...)";
+  }
+  const long before = read_listing(code->at("listing").text()).steps_before;
+  if (before > 0) {
+    words += before == 1 ? " after its first step" : " after its first " + std::to_string(before) + " steps";
+  }
+  if (is_rounded) {
+    words +=
+        ", every operation rounded to nearest, products and sums fused or not, subnormal numbers kept or "
+        "flushed "
+        "to 0, sinf and cosf within 1.5*2^-24 for arguments up to 8, other functions of the library within "
+        "two "
+        "units in the last place";
   }
   return words + (design.at("model").at("angles").elements().empty() ? "" : ", angles modulo 2 pi");
 }

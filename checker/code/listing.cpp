@@ -32,7 +32,7 @@ std::vector<std::string_view> split(std::string_view text, char mark) {
 }
 
 /// The kinds of lines in their order.
-enum class Section { file, sample, state, table, operation, next, frequency, must_be_zero };
+enum class Section { file, steps_before, sample, state, table, operation, next, frequency, must_be_zero };
 
 class ListingReader {
  public:
@@ -189,6 +189,11 @@ class ListingReader {
       enter(Section::file);
       require(whole<std::size_t>(words[1]) == files_++, "files are not in order");
       (void)name_from(words, 2);
+    } else if (kind == "steps-before" && size == 2) {
+      require(listing_.steps_before == 0, "a second number of steps");
+      enter(Section::steps_before);
+      listing_.steps_before = whole<int>(words[1]);
+      require(listing_.steps_before > 0, "a number of steps that is not above 0");
     } else if (kind == "sample" && size >= 4) {
       enter(Section::sample);
       listing_.samples.push_back(input(format(words[2])));

@@ -50,7 +50,8 @@ struct CodeListing {
   std::vector<int> samples;
   std::vector<std::string> sample_names;
   std::vector<ListedState> states;
-  int frequency = -1;  ///< of the states alone
+  int frequency = -1;     ///< of the states alone
+  long steps_before = 0;  ///< the listing says what steps do after the first ones
   std::vector<ListedObligation> obligations;
 
   [[nodiscard]] const ListedOperation& at(int place) const {

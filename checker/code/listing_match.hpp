@@ -17,6 +17,7 @@
 
 #include "checker/code/formula_graph.hpp"
 #include "checker/code/listing.hpp"
+#include "checker/code/listing_rounding.hpp"
 #include "checker/code/wraps.hpp"
 #include "checker/document/statement.hpp"
 
@@ -31,6 +32,10 @@ class ListingMatch {
   /// Nothing where the step, the frequency and all obligations of the listing are those of the graph. Throws
   /// Malformed for what is nested too deeply.
   [[nodiscard]] Objections objections();
+
+  /// Once there were none: what bounds on rounding rest on. Nothing where an obligation is kept by a limit of
+  /// the exact step alone.
+  [[nodiscard]] std::optional<ListedAngles> angles();
 
  private:
   using Pair = std::pair<int, int>;  ///< a node and a register
@@ -87,6 +92,8 @@ class ListingMatch {
   [[nodiscard]] std::optional<Span> bounds_of(int limit) const;
   [[nodiscard]] std::optional<double> bound(int node) const;
   void find_spans(Objections& objections);
+  [[nodiscard]] std::optional<ListedWrap> wrap_of(int place);
+  [[nodiscard]] bool is_kept_by_wraps(int condition);
 
   // ---- obligations
 

@@ -13,6 +13,9 @@ namespace {
 
 using RangeKind = FormulaStep::Kind;
 
+/// What angles may be off by rounding, and more.
+constexpr double kRoundedAngle = 3e-4;
+
 Span hull(Span a, Span b) {
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
@@ -206,6 +209,59 @@ void ListingMatch::find_spans(Objections& objections) {
     objections.emplace_back(
         "the listing does not keep its angles in a range, for steps of up to half a turn");
   }
+}
+
+std::optional<ListedWrap> ListingMatch::wrap_of(int place) {
+  const int base = wraps_.base_of(place);
+  std::optional<Span> before = span(base);
+  if (before) {
+    // The program's values are rounded.
+    before = Span{before->low - kRoundedAngle, before->high + kRoundedAngle};
+  }
+  const std::optional<Span> after = before ? wraps_.range(place, base, *before) : std::nullopt;
+  const auto shifts = before ? wraps_.shifts(place, base, *before) : std::nullopt;
+  if (!after || !shifts) {
+    return std::nullopt;
+  }
+  constexpr double kMost = 3.14 + 1e-9;
+  const double largest = std::max(
+      {std::fabs(before->low), std::fabs(before->high), std::fabs(after->low), std::fabs(after->high)});
+  const bool is_limited = std::any_of(graph_->limits().begin(), graph_->limits().end(), [&](int limit) {
+    const std::optional<Span> bounds = bounds_of(limit);
+    return bounds && bounds->low >= -kMost && bounds->high <= kMost &&
+           number(graph_->at(limit).arguments[0], place);
+  });
+  return ListedWrap{base, largest, *shifts, is_limited};
+}
+
+bool ListingMatch::is_kept_by_wraps(int condition) {
+  for (std::size_t i = 0; i < listing_->operations.size(); ++i) {
+    const int place = static_cast<int>(i);
+    const std::optional<Span> of_base = wraps_.is_wrapped(place) ? span(wraps_.base_of(place)) : std::nullopt;
+    if (of_base && wraps_.is_always(condition, false, wraps_.base_of(place), *of_base)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<ListedAngles> ListingMatch::angles() {
+  ListedAngles result;
+  for (const auto& [place, span] : state_spans_) {
+    result.states.emplace(place, Ball::hull(Ball(span.low - kRoundedAngle), Ball(span.high + kRoundedAngle)));
+  }
+  for (std::size_t i = 0; i < listing_->operations.size(); ++i) {
+    const int place = static_cast<int>(i);
+    if (wraps_.is_wrapped(place) && wraps_.plain(place) == place) {
+      if (std::optional<ListedWrap> wrap = wrap_of(place)) {
+        result.wraps.emplace(place, *std::move(wrap));
+      }
+    }
+  }
+  const bool are_kept = std::all_of(
+      listing_->obligations.begin(), listing_->obligations.end(),
+      [&](const ListedObligation& obligation) { return is_kept_by_wraps(obligation.must_be_zero); });
+  return are_kept ? std::optional(std::move(result)) : std::nullopt;
 }
 
 }  // namespace veritrack::checker

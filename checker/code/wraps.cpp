@@ -150,6 +150,18 @@ std::optional<Span> Wraps::range(int place, int base, Span of_base) const {
   return slightly_wider(all);
 }
 
+std::optional<std::vector<double>> Wraps::shifts(int place, int base, Span of_base) const {
+  const auto parts = shifted(place, base, {of_base, {}}, 0);
+  if (!parts || parts->empty()) {
+    return std::nullopt;
+  }
+  std::vector<double> all;
+  for (const auto& part : *parts) {
+    all.push_back(part.second);
+  }
+  return all;
+}
+
 bool Wraps::is_always(int condition, bool truth, int base, Span of_base) const {
   const auto parts = decided(condition, base, {of_base, {}}, 0);
   return parts && !parts->empty() &&

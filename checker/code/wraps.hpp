@@ -46,6 +46,8 @@ class Wraps {
   [[nodiscard]] int base_of(int place) const { return bases_[static_cast<std::size_t>(plain(place))]; }
   /// The values of a wrapped register where its base has this range.
   [[nodiscard]] std::optional<Span> range(int place, int base, Span of_base) const;
+  /// What may be added to the base, one entry for each way.
+  [[nodiscard]] std::optional<std::vector<double>> shifts(int place, int base, Span of_base) const;
   /// Whether a condition certainly has this truth where the base has this range.
   [[nodiscard]] bool is_always(int condition, bool truth, int base, Span of_base) const;
 

@@ -137,7 +137,7 @@ bool has_phases(const Tree& certificate) {
 }
 
 ByGains verified_gains(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
-                       Verification& result) {
+                       const RoundingOfStep& rounding, Verification& result) {
   ByGains found;
   Objections objections;
   const Tree& evidence = certificate.at("gains");
@@ -147,8 +147,8 @@ ByGains verified_gains(const Tree& certificate, const ModelDesign& design, const
     if (certificate.find("tubes") != nullptr) {
       objections.emplace_back("tubes and gains in one certificate");
     }
-    found.gains =
-        read_gains(evidence, certificate.at("design").at("model"), *model.recursion, design, objections);
+    found.gains = read_gains(evidence, certificate.at("design").at("model"), *model.recursion, design,
+                             rounding, objections);
   }
   result.parts.push_back({"gains", objections});
   return found;
@@ -163,7 +163,7 @@ std::unique_ptr<Gains> verified_averages(const Tree& certificate, const ModelDes
   }
   Objections objections;
   auto found =
-      read_gains(*evidence, certificate.at("design").at("model"), *model.recursion, design, objections);
+      read_gains(*evidence, certificate.at("design").at("model"), *model.recursion, design, {}, objections);
   result.parts.push_back({"averages", objections});
   return found;
 }
@@ -176,8 +176,8 @@ bool is_without_start(const std::string& claim) {
 
 /// By gains alone.
 void verify_by_gains(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
-                     Verification& result) {
-  const ByGains found = verified_gains(certificate, design, model, result);
+                     const RoundingOfStep& rounding, Verification& result) {
+  const ByGains found = verified_gains(certificate, design, model, rounding, result);
   const GainClaims claims(certificate, design, model, found.loop(), found.network());
   const auto check = [&](const Tree& claim, Objections& objections) {
     return claims.check(claim, objections);
@@ -192,7 +192,7 @@ void verify_by_tubes(const Tree& certificate, const ModelDesign& design, const T
       verified_sets(certificate.at("tubes"), model, design, result);
   const ModelClaims by_tubes(certificate, design, model, sets, result.cells);
   const ByGains found =
-      has_phases(certificate) ? verified_gains(certificate, design, model, result) : ByGains();
+      has_phases(certificate) ? verified_gains(certificate, design, model, {}, result) : ByGains();
   const GainClaims by_gains(certificate, design, model, found.loop(), found.network());
   const std::unique_ptr<Gains> averages = verified_averages(certificate, design, model, result);
   const GainClaims by_averages(certificate, design, model, averages.get(), nullptr);
@@ -215,6 +215,16 @@ void verify_by_tubes(const Tree& certificate, const ModelDesign& design, const T
   check_claims(certificate, by_tubes.required(), check, result);
 }
 
+/// Empty where obligations rest on more than wraps.
+RoundingOfStep rounding_of(const CheckedCode& code) {
+  if (!code.angles) {
+    return {};
+  }
+  return [code](const std::vector<Ball>& states, const Ball& sample) {
+    return listing_rounding(code.listing, *code.angles, states, sample);
+  };
+}
+
 void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
   const Tree& tree = certificate.at("design");
   Objections objections;
@@ -229,8 +239,10 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   if (!objections.empty()) {
     return;  // no statement is made about an invalid design
   }
+  RoundingOfStep rounding;
   if (tree.find("code") != nullptr) {
-    check_code(tree, objections);
+    const CheckedCode code = check_code(tree, objections);
+    rounding = rounding_of(code);
     result.parts.push_back({"the recursion is that of the listing", objections});
     if (!objections.empty()) {
       return;  // nor of another one than the code's
@@ -241,7 +253,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   }
   const TrackedModel model{&recursion, design.amplitude, design.amplitude_varies};
   if (by_gains) {
-    verify_by_gains(certificate, design, model, result);
+    verify_by_gains(certificate, design, model, rounding, result);
   } else {
     verify_by_tubes(certificate, design, model, result);
   }

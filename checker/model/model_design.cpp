@@ -272,7 +272,7 @@ std::string ModelWords::tone(const std::string& frequency) const {
   const auto& signal = design_->at("model").at("signal").elements();
   const bool is_tone = !signal.empty() && signal.size() <= 2 && signal[0].text() == "A*cos(phi)" &&
                        (signal.size() < 2 || signal[1].text() == "A*sin(phi)");
-  return "In exact arithmetic" + words_of_code(*design_) + ", on " +
+  return words_of_arithmetic(*design_, is_rounded_) + ", on " +
          (is_tone ? "a tone" : "the signal of the design file") + " " + amplitude() + frequency;
 }
 

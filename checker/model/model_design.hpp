@@ -67,6 +67,13 @@ class ModelWords {
                       bool bounds_covariance = false)
       : design_(&design), part_(std::move(part)), bounds_covariance_(bounds_covariance) {}
 
+  /// The same words of a program whose operations are rounded.
+  [[nodiscard]] ModelWords rounded() const {
+    ModelWords words = *this;
+    words.is_rounded_ = true;
+    return words;
+  }
+
   /// "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.2, 0.5] rad/sample".
   [[nodiscard]] std::string constant_tone() const { return tone("any constant frequency in " + band()); }
   /// With a frequency that may move at any rate.
@@ -102,6 +109,7 @@ class ModelWords {
   const Tree* design_;
   std::optional<BandPart> part_;
   bool bounds_covariance_ = false;
+  bool is_rounded_ = false;
 };
 
 }  // namespace veritrack::checker

@@ -15,7 +15,8 @@ GainClaims::GainClaims(const Tree& certificate, const ModelDesign& design, const
       loop_(loop),
       network_(network),
       half_distance_(half_distance_to_false_lock(model, design.lowest, design.highest)),
-      words_(*tree_),
+      exact_words_(*tree_),
+      words_(network != nullptr && network->is_rounded ? exact_words_.rounded() : exact_words_),
       required_(certificate, design, "") {
   Objections said_before;  // by the design
   units_ = FrequencyWords(tree_->at("assume"), said_before);
@@ -94,7 +95,7 @@ Claim GainClaims::required_claim(const Tree& claim) const {
                       design_->ripple->text + " over the phase.";
     found.verdict = proved_if(varies_by_at_most(design_->ripple->value));
   } else if (is_about_linear_loop(id)) {
-    found.statement = words_.constant_tone() +
+    found.statement = exact_words_.constant_tone() +
                       ", without noise, to first order about the steady state of the certificate, " +
                       required_.short_text(id) + ".";
     found.verdict = has_one_linear_loop() ? linear_loop_verdict(id, *network_, *design_) : Verdict::undecided;
@@ -209,7 +210,7 @@ Claim GainClaims::steady_state(const Tree& claim) const {
 Claim GainClaims::stability(const Tree& claim) const {
   Claim found;
   found.is_summary = true;
-  found.hypotheses = words_.constant_tone() + ", without noise";
+  found.hypotheses = exact_words_.constant_tone() + ", without noise";
   found.statement = found.hypotheses + ", the steady state of the certificate is stable: to first order, ";
   const bool is_constant = has_one_linear_loop();
   if (const Tree* growth = claim.find("growth")) {

@@ -62,8 +62,9 @@ class GainClaims {
   const ModelDesign* design_;
   const LoopBounds* loop_;
   const GainNetwork* network_;
-  Ball half_distance_;  ///< to a false lock
-  ModelWords words_;
+  Ball half_distance_;      ///< to a false lock
+  ModelWords exact_words_;  ///< of what is true to first order
+  ModelWords words_;        ///< of the program, where its rounding is known
   RequiredClaims required_;
   FrequencyWords units_;
 };

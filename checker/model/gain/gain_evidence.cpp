@@ -32,6 +32,35 @@ std::vector<SteadyState> read_steady_state(const Tree& list, Objections& objecti
   return steady;
 }
 
+/// The room of the states, from which the rounding of the program follows. Throws NotCovered.
+void read_rounding(const Tree& list, const ModelRecursion& recursion, const ModelDesign& design,
+                   const std::vector<SteadyState>& steady, const RoundingOfStep& rounding,
+                   GainNetwork& network) {
+  GainRounding found;
+  for (const Tree& entry : list.elements()) {
+    found.room.push_back(exact_number(entry));
+  }
+  const std::vector<bool>& is_angle = recursion.is_angle();
+  if (!rounding || found.room.size() != network.states()) {
+    throw NotCovered("rounding without a listing that bounds it, or of other states");
+  }
+  for (std::size_t i = 0; i < found.room.size(); ++i) {
+    if (is_angle[i] ? !certainly_equal(found.room[i], zero) : !certainly_positive(found.room[i])) {
+      throw NotCovered("the room of a state is a number above 0, and that of an angle 0");
+    }
+  }
+  // Noise is below the amplitude.
+  const Ball sample = Ball::within(two * design.largest_amplitude);
+  const auto off =
+      rounding(states_within(found.room, steady, is_angle, design.lowest, design.highest), sample);
+  if (!off || off->size() != network.states() + 1) {
+    throw NotCovered("no bound of the program's rounding is known");
+  }
+  found.next.assign(off->begin(), off->end() - 1);
+  found.frequency = off->back();
+  add_rounding(found, is_angle, network);
+}
+
 /// The samples are those of a tone, in one channel or in phase and in quadrature.
 bool is_tone_alone(const Tree& model) {
   const std::vector<Tree>& signal = model.at("signal").elements();
@@ -42,7 +71,8 @@ bool is_tone_alone(const Tree& model) {
 }  // namespace
 
 std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const ModelRecursion& recursion,
-                                  const ModelDesign& design, Objections& objections) {
+                                  const ModelDesign& design, const RoundingOfStep& rounding,
+                                  Objections& objections) {
   const std::vector<SteadyState> steady = read_steady_state(gains.at("steady_state"), objections);
   const bool has_bounds = gains.find("horizon") != nullptr;  // none of an unstable loop
   const long horizon = has_bounds ? gains.at("horizon").integer() : 1;
@@ -67,6 +97,9 @@ std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const Mo
     auto result = std::make_unique<Gains>(gain_network(recursion, design, steady));
     if (!has_bounds) {
       return result;
+    }
+    if (const Tree* room = gains.find("rounding")) {
+      read_rounding(*room, recursion, design, steady, rounding, result->network);
     }
     result->bounds.emplace(result->network, static_cast<std::size_t>(horizon),
                            static_cast<std::size_t>(blocks));

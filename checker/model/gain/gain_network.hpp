@@ -74,12 +74,13 @@ struct GainNetwork {
   Ball bias;                             ///< over the band
   /// The listed state is steady up to rounding, and crosses no limit.
   bool is_at_rest = true;
-  bool has_vector = false;      ///< two states are one angle: samples that are kept
-  std::vector<long> turns;      ///< of the states in the steady state, of the phase
-  std::vector<Ball> frequency;  ///< the row of the frequency
-  Ball least_amplitude;         ///< noise must be below it
+  bool has_vector = false;              ///< two states are one angle: samples that are kept
+  std::vector<long> turns;              ///< of the states in the steady state, of the phase
+  std::vector<Ball> frequency;          ///< the row of the frequency
+  Ball least_amplitude;                 ///< noise must be below it
+  bool is_rounded = false;              ///< a program's rounding is among the inputs
   std::vector<Ball> rounding_of_start;  ///< by state; or empty
-  Ball rounding_of_frequency;   ///< what the program's frequency is off from that of its states
+  Ball rounding_of_frequency;           ///< what the program's frequency is off from that of its states
 
   [[nodiscard]] std::size_t states() const { return matrix.size(); }
   /// Whether the errors obey the matrix to first order. A ripple changes with them, at each phase otherwise.

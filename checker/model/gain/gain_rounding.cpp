@@ -39,6 +39,7 @@ void add_rounding(const GainRounding& rounding, const std::vector<bool>& is_angl
     network.limits.push_back({network.forms.size(), zero, -rounding.room[i], rounding.room[i]});
     network.forms.push_back(std::move(state));
   }
+  network.is_rounded = true;
   network.rounding_of_start = rounding.next;
   network.rounding_of_frequency = rounding.frequency;
 }

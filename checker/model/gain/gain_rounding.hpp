@@ -1,6 +1,8 @@
 // A program's rounding as inputs of a loop about its steady state (docs/gain-proof.md, section 10).
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "checker/model/gain/gain_network.hpp"
@@ -13,6 +15,11 @@ struct GainRounding {
   std::vector<Ball> next;  ///< by state: what a step is off
   Ball frequency;          ///< what the reported frequency is off
 };
+
+/// What a program is off in a step: by state, then of the frequency; for states that are no angles in these
+/// ranges, and samples. Nothing where no bound is known.
+using RoundingOfStep =
+    std::function<std::optional<std::vector<Ball>>(const std::vector<Ball>& states, const Ball& sample)>;
 
 /// The values of each state in its room at the frequencies of a band; of an angle nothing that is finite.
 std::vector<Ball> states_within(const std::vector<Ball>& room, const std::vector<SteadyState>& steady,

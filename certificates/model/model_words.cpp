@@ -1,0 +1,30 @@
+#include "certificates/model/model_words.hpp"
+
+namespace veritrack::certificates {
+
+std::string arithmetic_of(const ModelTable& model, bool is_rounded) {
+  std::string text(is_rounded ? "In IEEE 754 arithmetic" : kExactArithmetic);
+  if (!model.compiled) {
+    return text;
+  }
+  text += " of the listing of `step` and `frequency` in ";
+  const std::vector<code::CodeFile>& files = model.compiled->files;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == files.size() ? " and " : ", ";
+    text += fmt::format("{} (SHA-256 {:.16}...)", files[i].name, files[i].sha256);
+  }
+  if (const int before = model.compiled->listing.steps_before; before > 0) {
+    text += before == 1 ? " after its first step" : fmt::format(" after its first {} steps", before);
+  }
+  if (is_rounded) {
+    text +=
+        ", every operation rounded to nearest, products and sums fused or not, subnormal numbers kept or "
+        "flushed to "
+        "0, sinf and cosf within 1.5*2^-24 for arguments up to 8, other functions of the library within two "
+        "units "
+        "in the last place";
+  }
+  return text + (model.angles.empty() ? "" : ", angles modulo 2 pi");
+}
+
+}  // namespace veritrack::certificates

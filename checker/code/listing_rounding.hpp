@@ -1,0 +1,35 @@
+// What a program's step in IEEE arithmetic is off from the same operations on real numbers, from its listing.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "checker/code/listing.hpp"
+#include "checker/numbers/ball.hpp"
+
+namespace veritrack::checker {
+
+/// A register that is its base less whole turns, and how it may get there.
+struct ListedWrap {
+  int base = -1;
+  double largest = 0.0;        ///< of the sizes of the base and of the register, rad
+  std::vector<double> shifts;  ///< what may be added to the base, by program constants
+  bool is_limited = false;     ///< the exact value is shown to be within 3.14 of 0
+};
+
+/// The ranges that wraps keep angles in.
+struct ListedAngles {
+  std::map<int, ListedWrap> wraps;  ///< by register
+  std::map<int, Ball> states;       ///< by the register of an angle
+};
+
+/// At least |computed - exact| of each next state, of an angle modulo turns; then of the frequency.
+/// Operations are rounded to nearest, products and sums fused or not, numbers below the normal range kept or
+/// flushed to 0; sinf and cosf within 1.5 * 2^-24 for arguments up to 8, other functions of the library
+/// within two units in the last place. Nothing where no bound is certain. `states`: those that are no angles,
+/// by their number.
+std::optional<std::vector<Ball>> listing_rounding(const CodeListing& listing, const ListedAngles& angles,
+                                                  const std::vector<Ball>& states, const Ball& sample);
+
+}  // namespace veritrack::checker

@@ -1,9 +1,9 @@
 // What choices compare and choose: atoms, the same in a formula and in a listing.
+#include "checker/code/choice_match.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-
-#include "checker/code/choice_match.hpp"
 
 namespace veritrack::checker {
 

@@ -75,7 +75,8 @@ class ListingMatch {
   [[nodiscard]] Factors factors_of_registers(std::vector<int> places, std::vector<int>& quotients) const;
   [[nodiscard]] bool same_terms(const std::vector<Signed>& nodes, const std::vector<Signed>& places,
                                 bool modulo_turns);
-  [[nodiscard]] bool same_factors(int node, const std::vector<int>& places);
+  /// `is_opposite`: the node is minus the product.
+  [[nodiscard]] bool same_factors(int node, const std::vector<int>& places, bool is_opposite = false);
   [[nodiscard]] bool is_sum(int node, int place, bool modulo_turns);
   [[nodiscard]] bool is_product(int node, int place);
   /// A term or factor whose sign is apart.

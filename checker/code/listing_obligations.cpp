@@ -1,11 +1,11 @@
 // What a listing needs besides, and what shows it.
+#include "checker/code/listing_match.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <string_view>
-
-#include "checker/code/listing_match.hpp"
 
 namespace veritrack::checker {
 

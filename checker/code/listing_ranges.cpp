@@ -1,11 +1,11 @@
 // Ranges of angles, from the wraps of a listing and from the limits among the formulas.
+#include "checker/code/listing_match.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <numbers>
-
-#include "checker/code/listing_match.hpp"
 
 namespace veritrack::checker {
 

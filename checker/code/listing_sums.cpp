@@ -1,9 +1,10 @@
 // Sums and products of a formula and of a listing, whatever their parentheses.
+#include "checker/code/listing_match.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "checker/code/listing_match.hpp"
 #include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
@@ -149,9 +150,11 @@ bool ListingMatch::same_size(int node, int place) {
 bool ListingMatch::same_terms(const std::vector<Signed>& nodes, const std::vector<Signed>& places,
                               bool modulo_turns) {
   const auto is_same = [&](const Signed& node, const Signed& place) {
-    const bool is_angle = modulo_turns && !listing_->at(place.of).is_number();
-    return node.is_negative == place.is_negative &&
-           (same_size(node.of, place.of) || (is_angle && congruent(node.of, place.of)));
+    const bool is_number = listing_->at(place.of).is_number();  // its sign has been taken apart
+    // The sign of a product may stand in front of it, or in one of its factors.
+    return node.is_negative == place.is_negative
+               ? same_size(node.of, place.of) || (modulo_turns && !is_number && congruent(node.of, place.of))
+               : !is_number && same_factors(node.of, {place.of}, true);
   };
   return !nodes.empty() && pair_up(nodes, places, is_same);
 }
@@ -162,12 +165,12 @@ bool ListingMatch::is_sum(int node, int place, bool modulo_turns) {
   return is_one && same_terms(terms_of_node(node), terms_of_register(place), modulo_turns);
 }
 
-bool ListingMatch::same_factors(int node, const std::vector<int>& places) {
+bool ListingMatch::same_factors(int node, const std::vector<int>& places, bool is_opposite) {
   std::vector<int> quotients;
   const Factors formula = factors_of_node(node);
   const Factors listed = factors_of_registers(places, quotients);
   const bool is_same =
-      formula.is_negative == listed.is_negative && !formula.above.empty() &&
+      (formula.is_negative == listed.is_negative) != is_opposite && !formula.above.empty() &&
       pair_up(formula.above, listed.above,
               [&](int written, int place) { return same_size(written, place); }) &&
       pair_up(formula.below, listed.below, [&](int written, int place) { return number(written, place); });

@@ -75,11 +75,21 @@ TEST_CASE("a recursion that is written down stands in its file") {
   CHECK(!compared(without, file, kCode).empty());
 }
 
-TEST_CASE("the words for a listing") {
-  CHECK(words_of_code(read_json(design().dump())) ==
-        " of the listing of `step` and `frequency` in loop.c (SHA-256 " + sha256(kCode).substr(0, 16) +
-            "...), angles modulo 2 pi");
-  CHECK(words_of_code(read_json(R"({"model": {}})")).empty());
+TEST_CASE("the words for a listing, in exact arithmetic and in that of the program") {
+  const std::string of =
+      " of the listing of `step` and `frequency` in loop.c (SHA-256 " + sha256(kCode).substr(0, 16) + "...)";
+  const Tree exact = read_json(design().dump());
+  CHECK(words_of_arithmetic(exact, false) == "In exact arithmetic" + of + ", angles modulo 2 pi");
+  const std::string rounded = words_of_arithmetic(exact, true);
+  CHECK(rounded.find("In IEEE 754 arithmetic" + of + ", every operation rounded to nearest") == 0);
+  CHECK(rounded.find("in the last place, angles modulo 2 pi") != std::string::npos);
+  nlohmann::json later = design();
+  std::string listing = later["code"]["listing"];
+  listing.insert(listing.find("sample "), "steps-before 3\n");
+  later["code"]["listing"] = listing;
+  CHECK(words_of_arithmetic(read_json(later.dump()), false) ==
+        "In exact arithmetic" + of + " after its first 3 steps, angles modulo 2 pi");
+  CHECK(words_of_arithmetic(read_json(R"({"model": {}})"), false) == "In exact arithmetic");
 }
 
 TEST_CASE("names and digests of files are plain") {

@@ -1,0 +1,134 @@
+"""[code]: certificates about functions in C."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from support import ROOT, run
+
+DESIGN = ROOT / "designs" / "code" / "motor-pll.toml"
+VERIFY = os.environ["VERITRACK_VERIFY"]
+HARNESS = "float frequency(void) { return w; }\n"
+
+
+def verify(*arguments):
+    return subprocess.run([VERIFY, *map(str, arguments)], capture_output=True, text=True, timeout=300, check=False)
+
+
+class Code(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        for file in DESIGN.parent.iterdir():
+            shutil.copy(file, self.folder)
+        self.design = self.folder / DESIGN.name
+
+    def certificate(self):
+        result = run("certify", self.design, "--out", self.folder / "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("VERIFIED", result.stdout + result.stderr)
+        return json.loads((self.folder / "out" / "certificate.json").read_text())
+
+    def verdict(self, certificate):
+        path = self.folder / "forged.json"
+        path.write_text(json.dumps(certificate))
+        return verify(path).returncode
+
+    def test_the_sentences_are_about_the_program_and_its_arithmetic(self):
+        self.certificate()
+        document = (self.folder / "out" / "certificate.md").read_text()
+        self.assertIn("In IEEE 754 arithmetic of the listing of `step` and `frequency` in pll.c (SHA-256 ", document)
+        self.assertIn("In exact arithmetic of the listing", document)  # what is true to first order
+        self.assertIn("atan2.f32", document)
+
+    def test_forgeries_are_refused(self):
+        genuine = self.certificate()
+        self.assertEqual(self.verdict(genuine), 0)
+        text = genuine["design"]["code"]["listing"]
+        self.assertIn("f32:0x1.f4p+10", text)
+        forged = {
+            "another constant": text.replace("f32:0x1.f4p+10", "f32:0x1.f4p+9"),
+            "the last bit of a constant": text.replace("f32:0x1.4f8b58p-14", "f32:0x1.4f8b5ap-14"),
+            "a sum for a difference": text.replace("= fsub.f32", "= fadd.f32", 1),
+            "the samples exchanged": text.replace("atan2.f32 r1 r0", "atan2.f32 r0 r1"),
+            "another wrap": text.replace("0x1.921fb6p+2", "0x1.921fb6p+1"),
+            "another limit of a wrap": text.replace("f32:0x1.921fb6p+1", "f32:0x1p+2"),
+            "no step before": text.replace("steps-before 1\n", ""),
+            "a line more": text + "must-be-zero i1:1 nothing\n",
+        }
+        for name, listing in forged.items():
+            with self.subTest(name):
+                self.assertNotEqual(listing, text)
+                changed = json.loads(json.dumps(genuine))
+                changed["design"]["code"]["listing"] = listing
+                if name == "no step before":
+                    changed["claims"][0]["frequency_error"] = "0.0001"  # the listing is that of another sentence
+                self.assertIn(self.verdict(changed), (2, 3))
+
+    def test_forged_rounding_is_refused(self):
+        genuine = self.certificate()
+        self.assertEqual(genuine["gains"]["rounding"][0], "0x0p+0")
+        for name, rooms in {"no room": ["0x0p+0", "0x0p+0"], "little room": ["0x0p+0", "0x1p-10"],
+                            "less than none": ["0x0p+0", "-0x1p+13"], "a state less": ["0x0p+0"],
+                            "room of an angle": ["0x1p+0", genuine["gains"]["rounding"][1]],
+                            "too much": ["0x0p+0", "0x1p+40"]}.items():
+            with self.subTest(name):
+                changed = json.loads(json.dumps(genuine))
+                changed["gains"]["rounding"] = rooms
+                self.assertIn(self.verdict(changed), (2, 3))
+        # The error of exact arithmetic is less than that of the program.
+        changed = json.loads(json.dumps(genuine))
+        bias = next(claim for claim in changed["claims"] if claim["id"] == "model/bias")
+        bias["bias_low"], bias["bias_high"] = "-0.0000001", "0.0000001"
+        self.assertIn(self.verdict(changed), (2, 3))
+
+    def test_another_file_is_noticed(self):
+        self.certificate()
+        with open(self.folder / "pll.c", "a", encoding="utf-8") as file:
+            file.write("/* changed */\n")
+        result = verify(self.folder / "out" / "certificate.json", "--design", self.design)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("pll.c", result.stdout)
+
+    def message(self, source):
+        (self.folder / "loop.c").write_text(source)
+        text = self.design.read_text().replace("files = ['pll.c', 'harness.c']", "files = ['loop.c']")
+        self.design.write_text(text)
+        result = run("show", self.design)
+        self.assertEqual(result.returncode, 2, result.stdout)
+        return result.stderr
+
+    def test_refusals_name_file_line_and_column(self):
+        begin = "#include <math.h>\nstatic float th, w;\nvoid setup(void) { w = 0.3f; }\n"
+        for body, said in {
+            "void step(float y) { th += w + 0.1f * y * sinf(th); w += 0.01f * y; }\n": "th grows for ever",
+            "float helper(float);\nvoid step(float y) { w += helper(y); }\n": "a call of helper",
+            "void step(float y) { w += y }\n": "expected ';'",
+            "void step(float y) { w += (float)(int)(y * 100) * 0.01f; }\n": "no rule",
+            "void step(float y) { while (y > 0.1f) { y *= 0.5f; } w += y; }\n": "a loop has ended",
+        }.items():
+            with self.subTest(said):
+                design = self.design.read_text()
+                message = self.message(begin + body + HARNESS)
+                self.assertIn(said, message)
+                self.assertRegex(message, r"loop\.c:\d+:\d+: ")
+                self.design.write_text(design)
+
+    def test_nothing_of_the_user_is_run(self):
+        marker = self.folder / "marker"
+        source = (self.folder / "harness.c").read_text()
+        (self.folder / "harness.c").write_text(
+            "#include <stdio.h>\n" + source +
+            f'__attribute__((constructor)) static void run(void) {{ FILE* f = fopen("{marker}", "w"); '
+            "if (f) { fclose(f); } }\n")
+        run("show", self.design)
+        self.assertFalse(marker.exists())
+        self.assertTrue(shutil.which("clang-14"))
+
+
+if __name__ == "__main__":
+    unittest.main()

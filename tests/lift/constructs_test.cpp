@@ -15,13 +15,13 @@ namespace {
 
 using trackers::code::Listing;
 
-const std::string kBegin =
+const std::string kHead =
     "#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n#include <stdlib.h>\n#include <string.h>\n"
     "static float w = 0.3f, a = 0.5f, b = 0.25f;\nfloat frequency(void) { return w; }\n";
-const std::string kEmpty = "void setup(void) {}\n";
+const std::string kNoSetup = "void setup(void) {}\n";
 
 Listing check_step(const std::string& text, const std::map<std::string, std::string>& expressions = {}) {
-  return check_same_bits(kBegin + text, "step.c", expressions);
+  return check_same_bits(kHead + text, "step.c", expressions);
 }
 
 bool has_obligation(const Listing& listing, const std::string& why) {
@@ -33,12 +33,12 @@ bool has_obligation(const Listing& listing, const std::string& why) {
 
 TEST_CASE("Memory that is reached in several ways") {
   // One of two addresses, which may be the same.
-  (void)check_step(kEmpty +
+  (void)check_step(kNoSetup +
                    "void step(float y) { float* p = y > w ? &a : &b; float* q = y > 0 ? p : &a; *q += y; *p "
                    "*= 0.5f; w = a - b; }");
   // Swaps, through pointers.
   (void)check_step(
-      kEmpty +
+      kNoSetup +
       "static void swap(float* x, float* z) { float t = *x; *x = *z; *z = t; }\n"
       "void step(float y) { if (y > w) swap(&a, &b); swap(&b, &b); w = 0.9f * a + y; a = b * y; }");
   // Zeros of four bytes, then numbers of eight, on one way only.
@@ -49,7 +49,7 @@ TEST_CASE("Memory that is reached in several ways") {
       "  s.z += s.is_on ? 0.1f : -0.1f; w = (float)(0.5 * w + s.x) + s.z; }");
   // The bits of numbers.
   (void)check_step(
-      kEmpty +
+      kNoSetup +
       "static float fast(float x) { union { float f; uint32_t u; } k = {x}; k.u = 0x5f3759dfu - (k.u >> 1);\n"
       "  return k.f * (1.5f - 0.5f * x * k.f * k.f); }\n"
       "void step(float y) { w = 0.5f * w + y * fast(1.0f + y * y); uint32_t u; memcpy(&u, &w, 4); "
@@ -69,20 +69,20 @@ TEST_CASE("Memory that is reached in several ways") {
 
 TEST_CASE("Integers of all widths and signs") {
   (void)check_step(
-      kEmpty +
+      kNoSetup +
       "static int8_t s8; static uint8_t u8; static int16_t s16; static uint64_t u64;\n"
       "void step(float y) { int k = (int)(y * 50.0f); s8 = (int8_t)(s8 + k); u8 = (uint8_t)(u8 - k);\n"
       "  s16 = (int16_t)((s8 * u8) >> 3); u64 = u64 * 6364136223846793005ull + (uint64_t)(int64_t)k;\n"
       "  w = 0.5f * w + (float)s8 * 0.01f + (float)(u8 / 7) + (float)(s16 % 13) + (float)(u64 >> 40) * "
       "1e-8f; }");
   (void)check_step(
-      kEmpty +
+      kNoSetup +
           "static struct { unsigned on : 1; int few : 5; unsigned more : 26; } f; static bool is_on;\n"
           "void step(float y) { f.on ^= y > w; f.few += f.on ? 1 : -1; f.more += 3u; is_on = is_on != (y < "
           "0);\n"
           "  w = 0.9f * w + y * (float)f.few + (is_on ? 0.5f : -0.5f) + (float)f.more; }",
       {{"f.on", "*(unsigned*)&f"}});
-  (void)check_step(kEmpty +
+  (void)check_step(kNoSetup +
                    "void step(float y) { int k = (int)(y * 10.0f); unsigned s = (unsigned)abs(k); int t = k "
                    "> 3 ? 3 : k < -2 ? -2 : k;\n"
                    "  w = 0.5f * w + (float)(1u << (s & 31u)) * 1e-9f + (float)(t << 2) + (float)(-77 >> (s "
@@ -90,28 +90,29 @@ TEST_CASE("Integers of all widths and signs") {
 }
 
 TEST_CASE("What is undefined is an obligation, where it is used") {
-  const Listing guarded = check_step(kEmpty +
+  const Listing guarded = check_step(kNoSetup +
                                      "void step(float y) { int k = y * 1e9f > 1e9f ? 7 : y < -1.0f ? 3 : "
                                      "(int)(y * 1e9f); w = 0.5f * w + (float)k * 1e-9f; }");
   CHECK(has_obligation(guarded, "a number that becomes an integer is in its range"));
-  const Listing sum = check_step(kEmpty +
+  const Listing sum = check_step(kNoSetup +
                                  "static int k; void step(float y) { k += (int)(y * 4.0f); if (k > 100) k = "
                                  "100; w = 0.5f * w + (float)k; }");
   CHECK(has_obligation(sum, "an operation on signed integers does not overflow"));
-  const Listing quotient = check_step(kEmpty +
+  const Listing quotient = check_step(kNoSetup +
                                       "void step(float y) { int k = (int)(y * 4.0f); w = 0.5f * w + (k != 0 "
                                       "? (float)(100 / k) : 1.0f) + (float)(77 % (k + 20)); }");
   CHECK(has_obligation(quotient, "an integer is not divided by 0"));
   const Listing shift = check_step(
-      kEmpty + "void step(float y) { int k = (int)(y * 4.0f) + 8; w = 0.5f * w + (float)(3 << k) * 1e-6f; }");
+      kNoSetup +
+      "void step(float y) { int k = (int)(y * 4.0f) + 8; w = 0.5f * w + (float)(3 << k) * 1e-6f; }");
   CHECK(has_obligation(shift, "an integer is shifted by less than its bits"));
-  const Listing table = check_step(kEmpty +
+  const Listing table = check_step(kNoSetup +
                                    "static const float t[4] = {1, 2, 4, 7}; void step(float y) { w = 0.5f * "
                                    "w + y * t[(int)(y + 2.0f)]; }");
   CHECK(has_obligation(table, "an index is inside its table"));
   // A counter that nothing depends on may overflow.
   const Listing counter =
-      check_step(kEmpty + "static int ticks; void step(float y) { ++ticks; w = 0.5f * w + y; }");
+      check_step(kNoSetup + "static int ticks; void step(float y) { ++ticks; w = 0.5f * w + y; }");
   CHECK(counter.obligations.empty());
   CHECK(counter.states.size() == 1);
 }
@@ -126,7 +127,7 @@ TEST_CASE("Rings of past values, at each position of their index") {
     ages[fmt::format("x_{}_ago", age)] = fmt::format("x[(i + 3 - {}) % 3]", age);
     ages[fmt::format("z_{}_ago", age)] = fmt::format("z[(k + {}) & 3]", age);
   }
-  CHECK(check_step(kEmpty + rings, ages).states.size() == 9);
+  CHECK(check_step(kNoSetup + rings, ages).states.size() == 9);
   // The head is a pointer.
   const std::string pointer =
       "static float x[5]; static float* head = x;\n"
@@ -135,9 +136,9 @@ TEST_CASE("Rings of past values, at each position of their index") {
   for (int age = 1; age <= 5; ++age) {
     behind[fmt::format("x_{}_ago", age)] = fmt::format("x[(head - x + 5 - {}) % 5]", age);
   }
-  CHECK(check_step(kEmpty + pointer, behind).states.size() == 6);
+  CHECK(check_step(kNoSetup + pointer, behind).states.size() == 6);
   const auto length = [](int count) {
-    return kBegin + kEmpty +
+    return kHead + kNoSetup +
            fmt::format(
                "static float x[{0}]; static int i; void step(float y) {{ w = 0.5f * w + x[i]; x[i] = y; i = "
                "(i + 1) % {0}; }}",
@@ -149,7 +150,7 @@ TEST_CASE("Rings of past values, at each position of their index") {
 
 TEST_CASE("Modes, and steps that differ by a counter") {
   const Listing decimated = check_step(
-      kEmpty +
+      kNoSetup +
       "static int n; void step(float y) { a += y; if (++n == 4) { n = 0; w = 0.5f * w + a; a = 0.0f; } }");
   CHECK(decimated.states.size() == 3);
   const Listing settled = check_step(
@@ -158,7 +159,7 @@ TEST_CASE("Modes, and steps that differ by a counter") {
   CHECK(settled.states.size() == 1);
   CHECK(settled.steps_before == 11);
   // A mode that a number decides is a state, also if it has never changed before.
-  const Listing late = check_step(kEmpty +
+  const Listing late = check_step(kNoSetup +
                                   "static int is_late; void step(float y) { if (w > 2.0f) is_late = 1; w += "
                                   "is_late ? 0.25f * y : 0.5f * y; }");
   CHECK(late.states.size() == 2);

@@ -15,6 +15,8 @@
 
 #include "analysis/model/code/listing_rounding.hpp"
 #include "analysis/model/code/turns.hpp"
+#include "certificates/code/angles.hpp"
+#include "certificates/code/comparisons.hpp"
 
 namespace veritrack::certificates::code {
 
@@ -58,15 +60,10 @@ constexpr std::array kFunctions{
     Named{Operation::log, "log"},    Named{Operation::tanh, "tanh"}, Named{Operation::atan2, "atan2"},
     Named{Operation::hypot, "hypot"}};
 
-/// A value between limits: the register that is limited, and the limits that are there.
-struct Limited {
-  int value = -1;
-  std::optional<double> low, high;
-};
-
 class Writer {
  public:
-  explicit Writer(const Listing& listing) : listing_(&listing), turns_(listing) {
+  explicit Writer(const Listing& listing)
+      : listing_(&listing), turns_(listing), angles_(listing, turns_), comparisons_(listing, turns_) {
     const auto take = [&](int value, const std::string& name) {
       std::string free = name;
       while (kTaken.contains(free) || !taken_.insert(free).second) {
@@ -80,12 +77,10 @@ class Writer {
     }
     for (const trackers::code::State& state : listing.states) {
       result_.states.push_back(take(state.input, state.name));
-      is_angle_[state.input] = turns_.is_wrapped(state.next);
     }
   }
 
   [[nodiscard]] Recursion written() {
-    find_ranges();
     for (const bool counts : {true, false}) {
       counts_ = counts;
       formulas_.clear();
@@ -97,8 +92,8 @@ class Writer {
     for (const std::string& line : lines_) {
       result_.step += line + "\n";
     }
-    result_.ranges = ranges_;
-    result_.bases = bases_;
+    result_.ranges = angles_.ranges();
+    result_.bases = angles_.bases();
     return std::move(result_);
   }
 
@@ -121,7 +116,7 @@ class Writer {
         refuse(state.next,
                fmt::format("{} is an integer that the frequency depends on; allowed: numbers", state.name));
       }
-      const bool is_angle = is_angle_.at(state.input);
+      const bool is_angle = angles_.is_angle(state.input);
       const Formula value = is_angle ? angle(state.next) : formula(state.next);
       next.push_back(fmt::format("{}' = {}", result_.states[i], value.text));
       if (is_angle) {
@@ -148,159 +143,10 @@ class Writer {
 
   // ---- angles
 
-  /// The ranges that the program keeps its angles in, for steps of up to half a turn.
-  void find_ranges() {
-    for (const trackers::code::State& state : listing_->states) {
-      if (is_angle_.at(state.input)) {
-        const double start = trackers::code::number_of(at(state.input).format, state.start_bits);
-        ranges_[state.input] = {start, start};
-      }
-    }
-    constexpr int kMostRounds = 8;
-    for (int round = 0; round < kMostRounds; ++round) {
-      bool has_grown = false;
-      for (const trackers::code::State& state : listing_->states) {
-        if (is_angle_.at(state.input)) {
-          Range& range = ranges_.at(state.input);
-          const std::optional<Range> next = angle_range(state.next);
-          if (!next) {
-            refuse(state.next,
-                   fmt::format("the new {} is not itself and a step, wrapped; allowed: e.g. theta += step; "
-                               "if (theta > PI) theta -= 2*PI",
-                               state.name));
-          }
-          const Range grown{std::min(range.low, next->low), std::max(range.high, next->high)};
-          has_grown = has_grown || !(grown == range);
-          range = grown;
-        }
-      }
-      if (!has_grown) {
-        return;
-      }
-    }
-    throw NoRecursion("an angle is not kept in a range by its wraps, for steps of up to half a turn", {});
-  }
-
-  [[nodiscard]] bool is_angular(int value) {
-    const auto known = is_angle_.find(turns_.plain(value));
-    return (known != is_angle_.end() && known->second) || turns_.is_wrapped(value);
-  }
-
-  /// What is left of a sum when one angle is taken out of it: the angle and the other terms with their signs.
-  struct Rest {
-    int angle = -1;
-    std::vector<std::pair<int, bool>> terms;  ///< and whether they are subtracted
-  };
-  [[nodiscard]] std::optional<Rest> rest_of(int value) {
-    value = turns_.plain(value);
-    if (is_angular(value)) {
-      return Rest{value, {}};
-    }
-    const Instruction& sum = at(value);
-    if (sum.operation != Operation::fadd && sum.operation != Operation::fsub) {
-      return std::nullopt;
-    }
-    const bool subtracts = sum.operation == Operation::fsub;
-    if (std::optional<Rest> rest = rest_of(sum.operands[0])) {
-      rest->terms.emplace_back(sum.operands[1], subtracts);
-      return rest;
-    }
-    std::optional<Rest> rest = subtracts ? std::nullopt : rest_of(sum.operands[1]);
-    if (rest) {
-      rest->terms.emplace_back(sum.operands[0], false);
-    }
-    return rest;
-  }
-
-  /// The range of a value that is made of angles and arc tangents alone.
-  [[nodiscard]] std::optional<Range> range_of(int value) {
-    value = turns_.plain(value);
-    const Instruction& instruction = at(value);
-    constexpr double kHalfTurn = std::numbers::pi + kWrapSlack;
-    if (instruction.operation == Operation::atan2) {
-      return Range{-kHalfTurn, kHalfTurn};
-    }
-    if (const auto known = ranges_.find(value); known != ranges_.end()) {
-      return known->second;
-    }
-    if (turns_.is_wrapped(value)) {
-      return angle_range(value);
-    }
-    if (instruction.operation == Operation::fadd || instruction.operation == Operation::fsub) {
-      const std::optional<Range> a = range_of(instruction.operands[0]);
-      const std::optional<Range> b = range_of(instruction.operands[1]);
-      if (a && b) {
-        return instruction.operation == Operation::fadd ? Range{a->low + b->low, a->high + b->high}
-                                                        : Range{a->low - b->high, a->high - b->low};
-      }
-    }
-    return std::nullopt;
-  }
-
-  /// The range of a wrapped value, or of a state that is an angle.
-  [[nodiscard]] std::optional<Range> angle_range(int value) {
-    value = turns_.plain(value);
-    if (const auto known = ranges_.find(value); known != ranges_.end()) {
-      return known->second;
-    }
-    if (!turns_.is_wrapped(value)) {
-      return std::nullopt;
-    }
-    const int base = turns_.without_turns(value);
-    std::optional<Range> of_base = range_of(base);
-    if (!of_base) {
-      const std::optional<Rest> rest = rest_of(base);
-      const std::optional<Range> before = rest ? angle_range(rest->angle) : std::nullopt;
-      if (!before) {
-        return std::nullopt;
-      }
-      of_base =
-          Range{before->low - std::numbers::pi - kWrapSlack, before->high + std::numbers::pi + kWrapSlack};
-      steps_.insert(base);
-    }
-    bases_[base] = *of_base;
-    return turns_.range(value, base, *of_base);
-  }
-
-  /// Whether a state is part of a sum.
-  [[nodiscard]] bool is_summand(int state, int sum) const {
-    sum = turns_.plain(sum);
-    const Instruction& instruction = at(sum);
-    const bool is_sum = instruction.operation == Operation::fadd || instruction.operation == Operation::fsub;
-    return sum == state || (is_sum && (is_summand(state, instruction.operands[0]) ||
-                                       is_summand(state, instruction.operands[1])));
-  }
-
-  /// An angle that grows for ever stops when the next step is less than half of a unit in its last place.
-  void require_wraps(int angle) {
-    if (rest_of(angle)) {
-      return;  // it is the sum of an angle and more
-    }
-    const auto grows = [&](const trackers::code::State& state) {
-      return is_summand(state.input, angle) && is_summand(state.input, state.next) &&
-             turns_.plain(state.next) != state.input;
-    };
-    const auto moves_by_another = [&](const trackers::code::State& state) {
-      return grows(state) &&
-             std::any_of(listing_->states.begin(), listing_->states.end(), [&](const auto& other) {
-               return other.input != state.input && is_summand(other.input, state.next);
-             });
-    };
-    const auto& states = listing_->states;
-    auto found = std::find_if(states.begin(), states.end(), moves_by_another);
-    found = found == states.end() ? std::find_if(states.begin(), states.end(), grows) : found;
-    if (found != states.end()) {
-      refuse(found->next,
-             fmt::format("the angle {0} grows for ever and is not wrapped, so that its steps are rounded "
-                         "away in the end; allowed: e.g. if ({0} > PI) {0} -= 2*PI",
-                         found->name));
-    }
-  }
-
   /// A value modulo whole turns.
   [[nodiscard]] Formula angle(int value) {
     if (!turns_.is_wrapped(value)) {
-      require_wraps(value);
+      angles_.require_wraps(value);
       return formula(value);
     }
     const int base = turns_.without_turns(value);
@@ -310,7 +156,7 @@ class Writer {
 
   /// The range of a wrapped value rests on steps of less than half a turn.
   void limit_step(int base) {
-    const std::optional<Rest> rest = steps_.contains(base) ? rest_of(base) : std::nullopt;
+    const std::optional<Angles::Rest> rest = angles_.has_step(base) ? angles_.rest_of(base) : std::nullopt;
     if (!rest || rest->terms.empty() || !limits_.insert(base).second) {
       return;
     }
@@ -321,14 +167,14 @@ class Writer {
                            : (subtracts ? " - " + part.as_factor() : " + " + part.as_term());
     }
     lines_.push_back(fmt::format("{} = stays_within({}, -pi, pi)", free_name("turn"), text));
-    if (const std::optional<Rest> inner = rest; turns_.is_wrapped(inner->angle)) {
-      limit_step(turns_.without_turns(inner->angle));
+    if (turns_.is_wrapped(rest->angle)) {
+      limit_step(turns_.without_turns(rest->angle));
     }
   }
 
   /// A wrapped value that is used as a number: between minus and plus half a turn.
   [[nodiscard]] Formula wrapped(int value) {
-    const std::optional<Range> range = angle_range(value);
+    const std::optional<Range> range = angles_.range(value);
     constexpr double kHalfTurn = std::numbers::pi + 10.0 * kWrapSlack;
     if (!range || range->low < -kHalfTurn || range->high > kHalfTurn) {
       refuse(value,
@@ -460,94 +306,11 @@ class Writer {
 
   // ---- choices
 
-  [[nodiscard]] std::optional<double> number(int value) const {
-    const Instruction& instruction = at(turns_.plain(value));
-    if (instruction.operation != Operation::constant || !instruction.format.is_float) {
-      return std::nullopt;
-    }
-    return trackers::code::number_of(instruction.format, instruction.bits);
-  }
-
-  /// A comparison as "first is below second", and whether it is the other way round.
-  struct Less {
-    int first = -1, second = -1;
-    bool negated = false;
-  };
-  [[nodiscard]] std::optional<Less> less(int condition) const {
-    const Instruction& instruction = at(condition);
-    if (instruction.operation != Operation::fcmp) {
-      return std::nullopt;
-    }
-    const auto& [a, b, unused] = instruction.operands;
-    switch (instruction.predicate) {
-      case Predicate::olt:
-      case Predicate::ult:
-        return Less{a, b, false};
-      case Predicate::ogt:
-      case Predicate::ugt:
-        return Less{b, a, false};
-      case Predicate::oge:
-      case Predicate::uge:
-        return Less{a, b, true};
-      case Predicate::ole:
-      case Predicate::ule:
-        return Less{b, a, true};
-      default:
-        return std::nullopt;
-    }
-  }
-
-  [[nodiscard]] std::optional<Limited> with_limit(int inner, double limit, bool is_low) const {
-    Limited result = limited(inner);
-    std::optional<double>& same = is_low ? result.low : result.high;
-    const std::optional<double>& other = is_low ? result.high : result.low;
-    if (same || (other && (is_low ? limit >= *other : limit <= *other))) {
-      return std::nullopt;
-    }
-    same = limit;
-    return result;
-  }
-
-  /// A value with the limits that it is kept between.
-  [[nodiscard]] Limited limited(int value) const {
-    value = turns_.plain(value);
-    const Instruction& instruction = at(value);
-    const Limited itself{value, {}, {}};
-    const auto& [a, b, c] = instruction.operands;
-    if (instruction.operation == Operation::fmin || instruction.operation == Operation::fmax) {
-      const std::optional<double> limit = number(a) ? number(a) : number(b);
-      const int inner = number(a) ? b : a;
-      return limit ? with_limit(inner, *limit, instruction.operation == Operation::fmax).value_or(itself)
-                   : itself;
-    }
-    const std::optional<Less> comparison =
-        instruction.operation == Operation::select ? less(a) : std::nullopt;
-    if (!comparison) {
-      return itself;
-    }
-    const int if_less = comparison->negated ? c : b;
-    const int otherwise = comparison->negated ? b : c;
-    // x < limit ? limit : x is at least the limit, x < limit ? x : limit at most, and likewise for limit < x.
-    const bool limit_is_second = number(comparison->second).has_value();
-    const std::optional<double> limit =
-        limit_is_second ? number(comparison->second) : number(comparison->first);
-    const int compared = turns_.plain(limit_is_second ? comparison->first : comparison->second);
-    for (const bool takes_limit_if_less : {true, false}) {
-      const std::optional<double> taken = number(takes_limit_if_less ? if_less : otherwise);
-      const int inner = takes_limit_if_less ? otherwise : if_less;
-      if (limit && taken && *taken == *limit && limited(inner).value == compared) {
-        const bool is_low = limit_is_second == takes_limit_if_less;
-        return with_limit(inner, *limit, is_low).value_or(itself);
-      }
-    }
-    return itself;
-  }
-
   [[nodiscard]] Formula choice(int value) {
     if (turns_.is_wrapped(value)) {
       return wrapped(value);
     }
-    const Limited limits = limited(value);
+    const Limited limits = comparisons_.limited(value);
     if (limits.low && limits.high) {
       return {fmt::format("clamp({}, {}, {})", formula(limits.value).text, exact_decimal(*limits.low).text,
                           exact_decimal(*limits.high).text)};
@@ -599,7 +362,7 @@ class Writer {
     if (instruction.operation == Operation::fcmp && instruction.predicate == Predicate::ord) {
       return yes();
     }
-    const std::optional<Less> comparison = less(condition);
+    const std::optional<Less> comparison = comparisons_.less(condition);
     if (!comparison) {
       refuse(condition,
              "a choice by an integer, or by whether two numbers are equal, which no rule makes a formula of "
@@ -628,14 +391,14 @@ class Writer {
 
   void write_obligation(const trackers::code::Obligation& obligation) {
     const int condition = obligation.must_be_zero;
-    for (const auto& [base, range] : bases_) {
+    for (const auto& [base, range] : angles_.bases()) {
       if (turns_.is_never(condition, base, range)) {
         limit_step(base);
         return;
       }
     }
     result_.ranges_keep_obligations = false;
-    const std::optional<Less> comparison = less(condition);
+    const std::optional<Less> comparison = comparisons_.less(condition);
     if (!comparison) {
       throw NoRecursion(fmt::format("nothing shows that {}", obligation.why), obligation.place);
     }
@@ -654,15 +417,13 @@ class Writer {
 
   const Listing* listing_;
   Turns turns_;
+  Angles angles_;
+  Comparisons comparisons_;
   Recursion result_;
   std::map<int, std::string> names_;
-  std::set<std::string> taken_;   ///< names of samples and states
-  std::set<std::string> given_;   ///< names of lines
-  std::map<int, bool> is_angle_;  ///< of the inputs
-  std::map<int, Range> ranges_;   ///< of angles
-  std::map<int, Range> bases_;    ///< of what is wrapped
-  std::set<int> steps_;           ///< bases that are an angle and a step
-  std::set<int> limits_;          ///< of these, those whose step is limited by a line
+  std::set<std::string> taken_;  ///< names of samples and states
+  std::set<std::string> given_;  ///< names of lines
+  std::set<int> limits_;         ///< of these, those whose step is limited by a line
   std::map<int, Formula> formulas_;
   std::map<int, int> uses_;
   std::vector<std::string> lines_;

@@ -200,6 +200,7 @@ class Writer {
   /// would turn it over.
   [[nodiscard]] Formula limited_wrap(int value, const std::string& text) {
     if (inlines_) {
+      result_.ranges_keep_obligations = false;  // nothing limits it
       return {text};
     }
     const std::string name = free_name("r");

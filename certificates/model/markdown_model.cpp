@@ -211,12 +211,13 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   const rigor::UpwardRounding upward;
   const ModelTables& tables = model_tables(certificate.design);
   const Model model = make_model(tables.model, tables.assume.signal);
-  if (model_sets(certificate).gains) {
-    return design_section(certificate, tables, model) + model_code_section(tables) +
+  if (const auto& gains = model_sets(certificate).gains) {
+    const bool is_rounded = gains->rounding.has_value();
+    return design_section(certificate, tables, model) + model_code_section(tables, is_rounded) +
            model_gains_section(certificate, model, options) + recursion_section(model) +
-           gains_coverage_section(tables);
+           gains_coverage_section(tables, is_rounded);
   }
-  return design_section(certificate, tables, model) + model_code_section(tables) +
+  return design_section(certificate, tables, model) + model_code_section(tables, false) +
          model_lock_section(certificate) +
          (model_sets(certificate).phases ? model_phases_section(certificate) : std::string()) +
          (model_sets(certificate).averages ? model_averages_section(certificate) : std::string()) +

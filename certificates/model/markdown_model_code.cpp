@@ -56,7 +56,7 @@ std::string shown(std::string_view listing) {
 
 }  // namespace
 
-std::string model_code_section(const ModelTables& tables) {
+std::string model_code_section(const ModelTables& tables, bool is_rounded) {
   if (!tables.model.compiled) {
     return "";
   }
@@ -70,8 +70,16 @@ std::string model_code_section(const ModelTables& tables) {
          "These states were found. A start in a set of the certificate need not be the one after "
          "`setup`.\n\n" +
          states_table(compiled, tables.model) +
-         "- The statements are about the listing in exact arithmetic. The rounding of single and double "
-         "precision is not covered yet.\n"
+         (is_rounded
+              ? "- Rounding is in the bounds: what each operation of the listing is off, at most, is one "
+                "more input "
+                "of the loop (docs/gain-proof.md, section 12). Statements to first order are about exact "
+                "arithmetic, and say so.\n"
+              : "- The statements are about the listing in exact arithmetic. The rounding of single and "
+                "double "
+                "precision is covered for loops of two channels that are certified by gains alone, and where "
+                "a "
+                "bound is known for every operation.\n") +
          "- That the compiled program does what the listing says is reported, not proved.\n" +
          (has_angles
               ? "- Angles are counted modulo 2π: a constant within 1e-5 of whole turns stands for whole "

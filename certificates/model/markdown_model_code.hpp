@@ -8,6 +8,7 @@
 namespace veritrack::certificates {
 
 /// "## The code": files, compiler, states and the listing; empty for a recursion that is written down.
-[[nodiscard]] std::string model_code_section(const ModelTables& tables);
+/// `is_rounded`: statements are about the program's arithmetic.
+[[nodiscard]] std::string model_code_section(const ModelTables& tables, bool is_rounded);
 
 }  // namespace veritrack::certificates

@@ -44,6 +44,7 @@ std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions
           : "curvature of the loop's functions at these errors",
       budget.remainders);
   add("what turns with the signal, to first order", budget.ripple);
+  add("rounding of the program", budget.rounding);
   add("bias of the steady state, and the rounding of the certificate", budget.steady_state);
   rows.push_back({"together", units.at_most(bounds.long_run), "100 %"});
   return "The frequency error in the long run, by cause (each at most; they are worst cases of the same "
@@ -220,14 +221,12 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
   return text + steady_state_table(proof, model);
 }
 
-std::string gains_coverage_section(const ModelTables& tables) {
+std::string gains_coverage_section(const ModelTables& tables, bool is_rounded) {
   return fmt::format(
       "## What this certificate covers, and what it does not\n\n"
-      "- Covered: the recursion above in exact arithmetic, for every noise within the assumed bound, every "
-      "phase "
-      "and every frequency that a statement names.\n"
-      "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
-      "not say, such as resets, lock detectors and limits that act.\n"
+      "- Covered: {}, for every noise within the assumed bound, every phase and every frequency that a "
+      "statement names.\n"
+      "- Not covered: {}.\n"
       "- The amplitude {}, and the signal has no other components. Everything else in the samples must fit "
       "into "
       "the noise.\n"
@@ -240,6 +239,11 @@ std::string gains_coverage_section(const ModelTables& tables) {
       "- The proof is in `docs/gain-proof.md` of the program's sources. Every bound was computed with "
       "outward "
       "rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
+      is_rounded ? "the listing above in the program's arithmetic"
+                 : "the recursion above in exact arithmetic",
+      is_rounded ? "the quantisation of samples, and interrupts that change a state between two operations"
+                 : "the rounding of the program that runs, quantised samples, and whatever the formulas do "
+                   "not say, such as resets, lock detectors and limits that act",
       tables.assume.one_amplitude ? "is exactly the assumed one"
       : tables.assume.constant_amplitude
           ? "is constant and some number of the assumed range"

@@ -21,6 +21,6 @@ namespace veritrack::certificates {
                                             const model::ProvedSet& starts, const FrequencyUnits& units);
 
 /// The section on what is covered.
-[[nodiscard]] std::string gains_coverage_section(const ModelTables& tables);
+[[nodiscard]] std::string gains_coverage_section(const ModelTables& tables, bool is_rounded);
 
 }  // namespace veritrack::certificates

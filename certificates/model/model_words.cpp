@@ -18,7 +18,7 @@ std::string arithmetic_of(const ModelTable& model, bool is_rounded) {
   }
   if (is_rounded) {
     text +=
-        ", every operation rounded to nearest, products and sums fused or not, subnormal numbers kept or "
+        ", every operation rounded to nearest, products and sums fused or not, subnormal results kept or "
         "flushed to "
         "0, sinf and cosf within 1.5*2^-24 for arguments up to 8, other functions of the library within two "
         "units "

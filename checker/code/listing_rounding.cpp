@@ -96,12 +96,12 @@ class StepErrors {
   /// The same, where whole turns do not matter.
   Register modulo_turns(int place) {
     const auto wrap = angles_->wraps.find(plain(place));
-    return wrap == angles_->wraps.end() ? at(place) : wrapped(operation(place).format, wrap->second);
+    return wrap == angles_->wraps.end() ? at(place) : wrapped(wrap->second);
   }
 
   Register computed(int place) {
     if (const auto wrap = angles_->wraps.find(place); wrap != angles_->wraps.end()) {
-      return wrap->second.is_limited ? wrapped(operation(place).format, wrap->second) : Register{};
+      return wrap->second.is_limited ? wrapped(wrap->second) : Register{};
     }
     const ListedOperation& now = operation(place);
     if (!now.format.is_float) {
@@ -205,17 +205,17 @@ class StepErrors {
   }
 
   /// Roundings of the turns that are added, and what the program's constants are off from turns.
-  Register wrapped(ListedFormat format, const ListedWrap& wrap) {
+  Register wrapped(const ListedWrap& wrap) {
     const Register base = at(wrap.base);
     const Ball slack(1e-5);  // of the ranges that the wrap's shifts were found for
     if (!certainly_at_most(base.error, slack)) {
       return {};
     }
     Ball most = zero;
-    for (const double shift : wrap.shifts) {
-      const Ball turns(std::round(shift / 6.283185307179586));
-      const Ball off = abs(Ball(shift) - turns * two * pi());
-      most = max(most, off + abs(turns) * roundoff(format) * (Ball(wrap.largest) + slack)).upper();
+    for (const ListedShift& shift : wrap.shifts) {
+      const Ball turns(std::round(shift.by / 6.283185307179586));
+      const Ball off = abs(Ball(shift.by) - turns * two * pi());
+      most = max(most, off + Ball(shift.roundings) * (Ball(wrap.largest) + slack)).upper();
     }
     const Ball size = wrap.is_limited ? Ball(3.1401) : Ball(wrap.largest) + slack;
     return {Ball::within(size), (base.error + most).upper()};

@@ -10,12 +10,18 @@
 
 namespace veritrack::checker {
 
+/// What a program adds to a number by constants.
+struct ListedShift {
+  double by = 0.0;
+  double roundings = 0.0;  ///< the sum of the units of roundoff of its operations and conversions
+};
+
 /// A register that is its base less whole turns, and how it may get there.
 struct ListedWrap {
   int base = -1;
-  double largest = 0.0;        ///< of the sizes of the base and of the register, rad
-  std::vector<double> shifts;  ///< what may be added to the base, by program constants
-  bool is_limited = false;     ///< the exact value is shown to be within 3.14 of 0
+  double largest = 0.0;             ///< of the sizes of the base and of the register, rad
+  std::vector<ListedShift> shifts;  ///< the ways to it
+  bool is_limited = false;          ///< the exact value is shown to be within 3.14 of 0
 };
 
 /// The ranges that wraps keep angles in.
@@ -25,7 +31,7 @@ struct ListedAngles {
 };
 
 /// At least |computed - exact| of each next state, of an angle modulo turns; then of the frequency.
-/// Operations are rounded to nearest, products and sums fused or not, numbers below the normal range kept or
+/// Operations are rounded to nearest, products and sums fused or not, results below the normal range kept or
 /// flushed to 0; sinf and cosf within 1.5 * 2^-24 for arguments up to 8, other functions of the library
 /// within two units in the last place. Nothing where no bound is certain. `states`: those that are no angles,
 /// by their number.

@@ -29,6 +29,10 @@ bool is_sum(const ListedOperation& operation) {
   return operation.is("fadd") || operation.is("fsub");
 }
 
+double half_unit(ListedFormat format) {
+  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
+}
+
 }  // namespace
 
 Span slightly_wider(Span span) {
@@ -80,6 +84,12 @@ std::optional<bool> Wraps::tests_for_numbers(int condition) const {
     taken_.insert(operation.operands.begin(), operation.operands.end());
     return truth == is_ordered;
   }
+}
+
+/// One step of `plain` behind a register that it looks through.
+int Wraps::behind(int place) const {
+  const ListedOperation& operation = listing_->at(place);
+  return operation.operands[operation.is("select") ? (*tests_for_numbers(operation.operands[0]) ? 1 : 2) : 0];
 }
 
 int Wraps::plain(int place) const {
@@ -144,18 +154,18 @@ std::optional<Span> Wraps::range(int place, int base, Span of_base) const {
   }
   Span all{kInfinite, -kInfinite};
   for (const auto& [part, shift] : *parts) {
-    all.low = std::min(all.low, part.of_base.low + shift);
-    all.high = std::max(all.high, part.of_base.high + shift);
+    all.low = std::min(all.low, part.of_base.low + shift.by);
+    all.high = std::max(all.high, part.of_base.high + shift.by);
   }
   return slightly_wider(all);
 }
 
-std::optional<std::vector<double>> Wraps::shifts(int place, int base, Span of_base) const {
+std::optional<std::vector<ListedShift>> Wraps::shifts(int place, int base, Span of_base) const {
   const auto parts = shifted(place, base, {of_base, {}}, 0);
   if (!parts || parts->empty()) {
     return std::nullopt;
   }
-  std::vector<double> all;
+  std::vector<ListedShift> all;
   for (const auto& part : *parts) {
     all.push_back(part.second);
   }
@@ -170,10 +180,13 @@ bool Wraps::is_always(int condition, bool truth, int base, Span of_base) const {
 
 std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& part, int depth) const {
   spend();
-  place = plain(place);
+  double converted = 0.0;
+  for (const int end = plain(place); place != end; place = behind(place)) {
+    converted += listing_->at(place).is("fptrunc") ? half_unit(listing_->at(place).format) : 0.0;
+  }
   const ListedOperation& operation = listing_->at(place);
   if (place == base) {
-    return Shifted{{part, 0.0}};
+    return Shifted{{part, {0.0, converted}}};
   }
   if (depth > kDeepestWrap || place < base) {
     return std::nullopt;
@@ -183,7 +196,8 @@ std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& pa
     auto parts = constant ? shifted(operation.operands[0], base, part, depth + 1) : std::nullopt;
     if (parts) {
       for (auto& each : *parts) {
-        each.second += operation.is("fadd") ? *constant : -*constant;
+        each.second.by += operation.is("fadd") ? *constant : -*constant;
+        each.second.roundings += converted + half_unit(operation.format);
       }
     }
     return parts;
@@ -201,7 +215,9 @@ std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& pa
     if (!branch || all.size() > kMostParts) {
       return std::nullopt;
     }
-    all.insert(all.end(), branch->begin(), branch->end());
+    for (const auto& [there, shift] : *branch) {
+      all.push_back({there, {shift.by, shift.roundings + converted}});
+    }
   }
   return all;
 }
@@ -274,7 +290,7 @@ std::optional<Wraps::Decided> Wraps::compared(int condition, int base, const Par
   }
   Decided all;
   for (const auto& [where, shift] : *parts) {
-    const double at_base = *limit - shift;
+    const double at_base = *limit - shift.by;
     const auto add = [&](double low, double high, bool holds) {
       const Span cut{std::max(where.of_base.low, low), std::min(where.of_base.high, high)};
       if (cut.low <= cut.high) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checker/code/listing.hpp"
+#include "checker/code/listing_rounding.hpp"
 
 namespace veritrack::checker {
 
@@ -46,8 +47,8 @@ class Wraps {
   [[nodiscard]] int base_of(int place) const { return bases_[static_cast<std::size_t>(plain(place))]; }
   /// The values of a wrapped register where its base has this range.
   [[nodiscard]] std::optional<Span> range(int place, int base, Span of_base) const;
-  /// What may be added to the base, one entry for each way.
-  [[nodiscard]] std::optional<std::vector<double>> shifts(int place, int base, Span of_base) const;
+  /// One entry for each way from the base to the register.
+  [[nodiscard]] std::optional<std::vector<ListedShift>> shifts(int place, int base, Span of_base) const;
   /// Whether a condition certainly has this truth where the base has this range.
   [[nodiscard]] bool is_always(int condition, bool truth, int base, Span of_base) const;
 
@@ -58,8 +59,10 @@ class Wraps {
     Span of_base;
     std::map<int, bool> decided;
   };
-  using Shifted = std::vector<std::pair<Part, double>>;  ///< there, a register is the base and a constant
-  using Decided = std::vector<std::pair<Part, bool>>;    ///< there, a condition is true or false
+  using Shifted =
+      std::vector<std::pair<Part, ListedShift>>;       ///< there, a register is the base and a constant
+  using Decided = std::vector<std::pair<Part, bool>>;  ///< there, a condition is true or false
+  [[nodiscard]] int behind(int place) const;
   [[nodiscard]] std::optional<Shifted> shifted(int place, int base, const Part& part, int depth) const;
   [[nodiscard]] std::optional<Decided> decided(int condition, int base, const Part& part, int depth) const;
   [[nodiscard]] std::optional<Decided> compared(int condition, int base, const Part& part, int depth) const;

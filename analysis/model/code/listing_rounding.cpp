@@ -28,7 +28,7 @@ struct Computed {
   double error = kInfinity;
 };
 
-double unit_roundoff(Format format) {
+double roundoff_of(Format format) {
   return format.bits == 32 ? 0x1p-24 : 0x1p-53;
 }
 /// The smallest normal number: what may be flushed.
@@ -85,7 +85,7 @@ class Evaluation {
     if (!rigor::is_finite(exact) || !(most <= largest(format))) {
       return {exact, kInfinity};
     }
-    const double rounding = rigor::mul_up(rigor::mul_up(units, unit_roundoff(format)), most);
+    const double rounding = rigor::mul_up(rigor::mul_up(units, roundoff_of(format)), most);
     return {exact, rigor::add_up(error, rigor::add_up(rounding, smallest(format)))};
   }
 
@@ -200,13 +200,10 @@ class Evaluation {
                                                 std::fabs(reached->low), std::fabs(reached->high)}),
                                       kWrapSlack);
     double error = 0.0;
-    for (const double shift : *shifts) {
-      const double count = std::round(shift / (2.0 * std::numbers::pi));
-      const Interval off = Interval(shift) - Interval(2.0 * count) * rigor::pi();
-      // At most one rounding for each turn; without a turn nothing is computed.
-      const double roundings =
-          rigor::mul_up(rigor::mul_up(std::fabs(count), unit_roundoff(at(number).format)), most);
-      error = std::max(error, rigor::add_up(rigor::magnitude(off), roundings));
+    for (const Turns::Shift& shift : *shifts) {
+      const double count = std::round(shift.by / (2.0 * std::numbers::pi));
+      const Interval off = Interval(shift.by) - Interval(2.0 * count) * rigor::pi();
+      error = std::max(error, rigor::add_up(rigor::magnitude(off), rigor::mul_up(shift.roundings, most)));
     }
     const Interval exact = Interval::from_bounds(std::max(reached->low, -kMostOfWrapped),
                                                  std::min(reached->high, kMostOfWrapped));
@@ -376,7 +373,7 @@ class Evaluation {
         const auto [sine, cosine] = rigor::sin_cos(x.exact);
         const double most = rigor::magnitude(whole);
         // Its bound was measured there.
-        const double absolute = format.bits == 32 && most <= 8.0 ? 0x1.8p-24 : 4.0 * unit_roundoff(format);
+        const double absolute = format.bits == 32 && most <= 8.0 ? 0x1.8p-24 : 4.0 * roundoff_of(format);
         return {instruction.operation == Operation::sin ? sine : cosine, rigor::add_up(x.error, absolute)};
       }
       case Operation::sqrt: {

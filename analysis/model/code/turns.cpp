@@ -15,6 +15,10 @@ using trackers::code::Predicate;
 
 constexpr std::size_t kMostPieces = 256;
 
+double unit_roundoff(trackers::code::Format format) {
+  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
+}
+
 bool is_whole_turns(double number) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const double turns = std::round(number / kTurn);
@@ -63,6 +67,17 @@ std::optional<bool> Turns::tests_for_numbers(int condition) const {
   return std::nullopt;
 }
 
+std::pair<int, double> Turns::plain_with_roundings(int value) const {
+  double roundings = 0.0;
+  while (plain(value) != value) {
+    const Instruction& instruction = at(value);
+    roundings += instruction.operation == Operation::fptrunc ? unit_roundoff(instruction.format) : 0.0;
+    const bool is_choice = instruction.operation == Operation::select;
+    value = instruction.operands[is_choice ? (*tests_for_numbers(instruction.operands[0]) ? 1 : 2) : 0];
+  }
+  return {value, roundings};
+}
+
 std::optional<double> Turns::number(int value) const {
   const Instruction& instruction = at(plain(value));
   if (instruction.operation != Operation::constant || !instruction.format.is_float) {
@@ -105,18 +120,18 @@ std::optional<Range> Turns::range(int value, int base, Range of_base) const {
   }
   Range whole{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const auto& [part, shift] : *parts) {
-    whole.low = std::min(whole.low, part.of_base.low + shift);
-    whole.high = std::max(whole.high, part.of_base.high + shift);
+    whole.low = std::min(whole.low, part.of_base.low + shift.by);
+    whole.high = std::max(whole.high, part.of_base.high + shift.by);
   }
   return whole;
 }
 
-std::optional<std::vector<double>> Turns::shifts(int value, int base, Range of_base) const {
+std::optional<std::vector<Turns::Shift>> Turns::shifts(int value, int base, Range of_base) const {
   const auto parts = pieces(value, base, Part{of_base, {}});
   if (!parts || parts->empty()) {
     return std::nullopt;
   }
-  std::vector<double> all;
+  std::vector<Shift> all;
   for (const Piece& piece : *parts) {
     all.push_back(piece.shift);
   }
@@ -124,9 +139,10 @@ std::optional<std::vector<double>> Turns::shifts(int value, int base, Range of_b
 }
 
 std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, const Part& part) const {
-  value = plain(value);
+  const auto [behind, converted] = plain_with_roundings(value);
+  value = behind;
   if (value == base) {
-    return std::vector{Piece{part, 0.0}};
+    return std::vector{Piece{part, {0.0, converted}}};
   }
   const Instruction& instruction = at(value);
   if (instruction.operation == Operation::fadd || instruction.operation == Operation::fsub) {
@@ -134,7 +150,8 @@ std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, cons
     auto parts = moved ? pieces(instruction.operands[0], base, part) : std::nullopt;
     if (parts) {
       for (Piece& piece : *parts) {
-        piece.shift += instruction.operation == Operation::fadd ? *moved : -*moved;
+        piece.shift.by += instruction.operation == Operation::fadd ? *moved : -*moved;
+        piece.shift.roundings += converted + unit_roundoff(instruction.format);
       }
     }
     return parts;
@@ -150,7 +167,10 @@ std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, cons
     if (!branch || all.size() > kMostPieces) {
       return std::nullopt;
     }
-    all.insert(all.end(), branch->begin(), branch->end());
+    for (Piece piece : *branch) {
+      piece.shift.roundings += converted;
+      all.push_back(std::move(piece));
+    }
   }
   return all;
 }
@@ -212,8 +232,8 @@ std::optional<std::vector<Turns::Truth>> Turns::truth_of_comparison(int conditio
   }
   std::vector<Truth> all;
   for (const auto& [where, shift] : *parts) {
-    // Sums in single precision may be to the other side of a limit next to it.
-    const double at_base = *limit - shift;
+    // Sums and conversions in single precision may be to the other side of a limit next to it.
+    const double at_base = *limit - shift.by;
     const auto add = [&](double low, double high, bool holds) {
       const Range cut{std::max(where.of_base.low, low), std::min(where.of_base.high, high)};
       if (cut.low <= cut.high) {
@@ -222,8 +242,8 @@ std::optional<std::vector<Turns::Truth>> Turns::truth_of_comparison(int conditio
       }
     };
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    add(-kInfinity, at_base + kWrapSlack / 16, is_less(instruction.predicate));
-    add(at_base - kWrapSlack / 16, kInfinity, is_greater(instruction.predicate));
+    add(-kInfinity, at_base + kWrapSlack / 4, is_less(instruction.predicate));
+    add(at_base - kWrapSlack / 4, kInfinity, is_greater(instruction.predicate));
   }
   return all;
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "trackers/code/listing.hpp"
@@ -32,8 +33,13 @@ class Turns {
   /// The range of a wrapped value, or of one that a condition compares, where `base` has this range; nothing
   /// where the value is made of anything else.
   [[nodiscard]] std::optional<Range> range(int value, int base, Range of_base) const;
-  /// What is added to the base, one entry for each way in which a value of the base's range may go.
-  [[nodiscard]] std::optional<std::vector<double>> shifts(int value, int base, Range of_base) const;
+  /// A way from the base to the value.
+  struct Shift {
+    double by = 0.0;         ///< what is added to the base
+    double roundings = 0.0;  ///< the sum of the units of roundoff of its operations
+  };
+  /// One entry for each way in which a value of the base's range may go.
+  [[nodiscard]] std::optional<std::vector<Shift>> shifts(int value, int base, Range of_base) const;
   /// What a condition is for numbers, where it asks only whether a value is one.
   [[nodiscard]] std::optional<bool> tests_for_numbers(int condition) const;
   /// Whether a condition certainly does not hold where `base` has this range.
@@ -53,13 +59,15 @@ class Turns {
   /// There, the value is the base and a constant.
   struct Piece {
     Part part;
-    double shift = 0.0;
+    Shift shift;
   };
   /// There, a condition holds, or does not.
   struct Truth {
     Part part;
     bool holds = false;
   };
+  /// As `plain`, and the roundoff of the conversions on the way.
+  [[nodiscard]] std::pair<int, double> plain_with_roundings(int value) const;
   [[nodiscard]] std::optional<std::vector<Piece>> pieces(int value, int base, const Part& part) const;
   [[nodiscard]] std::optional<std::vector<Truth>> truth(int condition, int base, const Part& part) const;
   [[nodiscard]] std::optional<std::vector<Truth>> truth_of_comparison(int condition, int base,

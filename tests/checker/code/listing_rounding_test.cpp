@@ -98,7 +98,8 @@ TEST_CASE("a wrap is off by its constant, and a wrapped value is a number only a
   for (std::size_t i = 0; i < listing.operations.size(); ++i) {
     if (listing.operations[i].is("select")) {
       angles.wraps = {
-          {static_cast<int>(i), {listing.operations[i].operands[2], 3.2, {0.0, -0x1.921fb6p+2}, true}}};
+          {static_cast<int>(i),
+           {listing.operations[i].operands[2], 3.2, {{0.0, 0.0}, {-0x1.921fb6p+2, kUnit}}, true}}};
     }
   }
   const double limited = bound(operations, "r6", angles);

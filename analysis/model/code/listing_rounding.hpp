@@ -33,7 +33,7 @@ struct StepRanges {
 /// tear them.
 inline constexpr double kMostOfWrapped = 3.14;
 
-/// For operations of IEEE 754, each rounded to nearest, products and sums fused or not, numbers below the
+/// For operations of IEEE 754, each rounded to nearest, products and sums fused or not, results below the
 /// normal range kept or flushed to 0; sine and cosine in single precision within 1.5 * 2^-24, other functions
 /// of the library within two units in the last place. Empty where no bound is known: an operation without
 /// one, a branch that is not decided and jumps, a division by what may be 0, a result that may overflow.

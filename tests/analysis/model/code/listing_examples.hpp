@@ -41,10 +41,11 @@ class ListingBuilder {
     listing.states.push_back({name, put(input), -1, 0});
     return listing.states.back().input;
   }
-  int make(Operation operation, std::vector<int> operands, Predicate predicate = Predicate::none) {
+  int make(Operation operation, std::vector<int> operands, Predicate predicate = Predicate::none,
+           Format format = kSingle) {
     Instruction instruction;
     instruction.operation = operation;
-    instruction.format = predicate == Predicate::none ? kSingle : kBit;
+    instruction.format = predicate == Predicate::none ? format : kBit;
     instruction.predicate = predicate;
     for (std::size_t k = 0; k < operands.size(); ++k) {
       instruction.operands.at(k) = operands[k];

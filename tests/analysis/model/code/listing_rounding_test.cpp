@@ -171,4 +171,28 @@ TEST_CASE("a choice that meets where it turns is bounded on both sides; with oth
   CHECK_FALSE(absolute(false).has_value());
 }
 
+TEST_CASE("conversions between a wrap and what is wrapped are rounded, too") {
+  using trackers::code::kDouble;
+  const rigor::UpwardRounding upward;
+  const auto bound = [](bool converts) {
+    ListingBuilder made;
+    const int y = made.sample();
+    const int theta = made.state("theta");
+    const int sum = made.make(Operation::fadd,
+                              {made.make(Operation::fpext, {theta}, Predicate::none, kDouble),
+                               made.make(Operation::fpext, {y}, Predicate::none, kDouble)},
+                              Predicate::none, kDouble);
+    const int base = converts ? made.make(Operation::fptrunc, {sum}) : sum;
+    made.listing.states[0].next = made.wrapped(base);
+    made.listing.frequency = theta;
+    const double half = std::numbers::pi;
+    const StepRanges ranges{{Interval::from_bounds(-half, half)},
+                            Interval::from_bounds(-1.0, 1.0),
+                            {{sum, Range{-2.0 * half, 2.0 * half}}}};
+    return step_rounding(made.listing, ranges).value().next[0];
+  };
+  // Of the sum and of the turn that is taken off, in single precision, up to two half turns.
+  CHECK(bound(true) >= bound(false) + 0x1p-24 * std::numbers::pi);
+}
+
 }  // namespace veritrack::model::code

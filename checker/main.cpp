@@ -37,6 +37,7 @@ constexpr const char* kUsage =
     "Verifies every claim of the certificate from its evidence, and prints the sentences that it "
     "establishes.\n"
     "  --design FILE     also that the certificate is about this design file\n"
+    "  --code FOLDER     where the files of the design's code are, unless beside the design file\n"
     "  --markdown FILE   also that this certificate.md or published-theorems.md says what was verified; may "
     "be "
     "given\n"
@@ -60,6 +61,7 @@ constexpr const char* kUsage =
 
 struct Options {
   std::string certificate, design;
+  std::optional<std::string> code;  ///< a folder
   std::vector<std::string> documents;
   bool all_boxes = false;
   bool as_json = false;
@@ -110,6 +112,8 @@ std::optional<Options> read_options(const std::vector<std::string>& arguments) {
       set_budget(*operations);
     } else if (argument == "--design" && has_value) {
       options.design = arguments[++i];
+    } else if (argument == "--code" && has_value) {
+      options.code = arguments[++i];
     } else if (argument == "--markdown" && has_value) {
       options.documents.push_back(arguments[++i]);
     } else if (argument == "--full") {
@@ -132,7 +136,8 @@ int run(const Options& options) {
   if (!options.design.empty()) {
     Objections objections;
     compare_with_design_file(certificate, read_file(options.design), objections,
-                             std::filesystem::path(options.design).parent_path());
+                             options.code ? std::filesystem::path(*options.code)
+                                          : std::filesystem::path(options.design).parent_path());
     found.parts.push_back({"the design file", objections});
   }
   for (const std::string& document : options.documents) {

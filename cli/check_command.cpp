@@ -131,7 +131,8 @@ std::string work_on(const CheckTask& task, const CheckOptions& options,
   CheckedDesign checked{task.path, reports::requirements_of(certificate)};
   checked.cut_short = deadline.has_struck();
   if (verifier) {
-    const certificates::Verification found = (*verifier)({certificates::to_json(certificate), task.text});
+    const certificates::Verification found =
+        (*verifier)({certificates::to_json(certificate), task.text, {}, fs::path(task.path).parent_path()});
     if (!found.failure.empty()) {
       throw std::runtime_error(refusal_sentence(found));
     }

@@ -110,8 +110,13 @@ Verification Verifier::operator()(const reports::TextsToVerify& texts) const {
     names.emplace_back(file.path(), name);
     return file.path();
   };
-  std::vector<std::string> arguments{"--json", "--full", hand_over("certificate.json", texts.certificate),
-                                     "--design", hand_over("the design file", texts.design)};
+  std::vector<std::string> arguments{"--json",
+                                     "--full",
+                                     hand_over("certificate.json", texts.certificate),
+                                     "--design",
+                                     hand_over("the design file", texts.design),
+                                     "--code",
+                                     texts.folder.empty() ? "." : texts.folder.string()};
   for (const auto& [name, text] : texts.documents) {
     arguments.emplace_back("--markdown");
     arguments.push_back(hand_over(name, text));

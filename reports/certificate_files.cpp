@@ -62,7 +62,8 @@ CertificateFiles write_certificate_files(const certificates::Certificate& certif
   if (verify) {
     // The verified texts are those that will be written: a line of them says that they were verified.
     render({certificates::Verification::Outcome::verified});
-    TextsToVerify texts{json, certificate.design_text, {{"certificate.md", document.markdown}}};
+    TextsToVerify texts{
+        json, certificate.design_text, {{"certificate.md", document.markdown}}, design.parent_path()};
     if (!document.appendix.empty()) {
       texts.documents.emplace_back("published-theorems.md", document.appendix);
     }

@@ -25,6 +25,7 @@ struct TextsToVerify {
   std::string certificate;                                          ///< certificate.json
   std::string design;                                               ///< the design file
   std::vector<std::pair<std::string, std::string>> documents = {};  ///< names and texts, in Markdown
+  std::filesystem::path folder = {};  ///< of the design file, where the files of its code are
 };
 
 /// Asks the checker.

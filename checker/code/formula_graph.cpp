@@ -160,7 +160,6 @@ void FormulaGraph::find_needed() {
       is_always_needed_[static_cast<std::size_t>(root)] = true;
     }
   }
-  is_always_needed_[static_cast<std::size_t>(frequency_)] = true;
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // arguments stand before
     const FormulaNode& node = nodes_[i];
     if (is_always_needed_[i]) {

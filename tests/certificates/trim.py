@@ -69,6 +69,8 @@ From tests/certificates/model-gains-arms.toml, model-gains-observer.toml and mod
 model-gains-arms    a loop with the arc tangent of two filtered values
 model-gains-observer  a vector of states whose length matters, on a band through 0
 model-gains-control   samples times a state, with amplitudes in a range
+From tests/certificates/model-code.toml and model-code.c, as it is:
+model-code        a loop that is a function in C, with its listing
 From tests/certificates/model-gains-limits.toml, model-gains-signs.toml and model-kinks.toml, as they are:
 model-gains-limits  a loop with a clamp that acts and one that does not
 model-gains-signs   a loop whose detector has signs, conditions and absolute values
@@ -513,6 +515,7 @@ KINDS = {
     "model-gains-limits": lambda certificate: None,
     "model-gains-linear": lambda certificate: None,
     "model-gains-signs": lambda certificate: None,
+    "model-code": lambda certificate: None,
     "model-kinks": lambda certificate: None,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,

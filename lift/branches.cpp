@@ -1,4 +1,5 @@
 // Where ways part, and where they meet.
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
 
@@ -13,6 +14,8 @@ namespace {
 
 /// How often a loop whose condition depends on the state is followed; then it has to have ended.
 constexpr int kTurns = 2;
+/// The same for a loop that also ends by itself, e.g. a search in a table.
+constexpr int kTurnsOfKnown = 64;
 
 }  // namespace
 
@@ -25,10 +28,16 @@ const Executor::Shape& Executor::shape_of(const llvm::Function& function) {
   // The analysis wants a function that it may change, and does not change it.
   const llvm::PostDominatorTree tree(
       const_cast<llvm::Function&>(function));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  llvm::DominatorTree dominators(
+      const_cast<llvm::Function&>(function));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  const llvm::LoopInfo loops(dominators);
   for (const llvm::BasicBlock& block : function) {
     const auto* node = tree.getNode(&block);
     const auto* above = node == nullptr ? nullptr : node->getIDom();
     shape.meets[&block] = above == nullptr ? nullptr : above->getBlock();
+    if (const llvm::Loop* loop = loops.getLoopFor(&block)) {
+      shape.loop[&block].insert(loop->block_begin(), loop->block_end());
+    }
     std::set<const llvm::BasicBlock*>& seen = shape.reaches[&block];
     std::vector<const llvm::BasicBlock*> open{&block};
     while (!open.empty()) {
@@ -116,6 +125,25 @@ const llvm::BasicBlock* Executor::leave_loop(Frame& frame, const std::vector<Arm
   return leaves_by_no ? no : yes;
 }
 
+/// Whether a branch on the state has kept the program in a loop for long enough.
+bool Executor::has_to_leave(const Frame& frame, const llvm::BasicBlock* block) {
+  const Shape& shape = shape_of(*frame.function);
+  const auto visits = frame.visits.find(block);
+  if (visits == frame.visits.end() || !shape.reaches.at(block).contains(block)) {
+    return false;
+  }
+  const auto loop = shape.loop.find(block);
+  const bool ends_by_itself =
+      loop != shape.loop.end() &&
+      std::any_of(frame.known_exits.begin(), frame.known_exits.end(), [&](const llvm::BasicBlock* exit) {
+        const auto successors = llvm::successors(exit);
+        return loop->second.contains(exit) &&
+               std::any_of(successors.begin(), successors.end(),
+                           [&](const auto* to) { return !loop->second.contains(to); });
+      });
+  return visits->second >= (ends_by_itself ? kTurnsOfKnown : kTurns);
+}
+
 /// One way, to where all meet.
 Executor::Way Executor::follow(Frame& frame, const llvm::BasicBlock& from, const llvm::BasicBlock& target) {
   enter(frame, target, from);
@@ -194,9 +222,11 @@ Executor::Ended Executor::run(Frame& frame, const llvm::BasicBlock* block, const
     }
     const std::vector<Arm> arms = undecided(step->arms);
     const llvm::BasicBlock* next = arms.front().target;
+    if (arms.size() == 1 && step->arms.size() > 1) {
+      frame.known_exits.insert(block);
+    }
     if (arms.size() > 1) {
-      const bool is_in_loop = shape_of(*frame.function).reaches.at(block).contains(block);
-      if (is_in_loop && frame.visits[block] >= kTurns) {
+      if (has_to_leave(frame, block)) {
         next = leave_loop(frame, arms, block);
       } else {
         if (const auto ended = branch(frame, arms, block)) {

@@ -54,10 +54,12 @@ class Executor {
     Environment values;
     std::optional<Value> result;
     std::map<const llvm::BasicBlock*, int> visits;  ///< of a branch on the state, in the ways that are open
+    std::set<const llvm::BasicBlock*> known_exits;  ///< of loops: blocks whose branch was decided
   };
   struct Shape {                                                       ///< of a function
     std::map<const llvm::BasicBlock*, const llvm::BasicBlock*> meets;  ///< null: at the function's end
     std::map<const llvm::BasicBlock*, std::set<const llvm::BasicBlock*>> reaches;
+    std::map<const llvm::BasicBlock*, std::set<const llvm::BasicBlock*>> loop;  ///< the innermost around it
   };
   enum class Ended { at_stop, returned, dead };
   struct Arm {
@@ -82,6 +84,7 @@ class Executor {
   [[nodiscard]] Way follow(Frame& frame, const llvm::BasicBlock& from, const llvm::BasicBlock& target);
   [[nodiscard]] Way follow_arms(Frame& frame, const llvm::BasicBlock& from, llvm::ArrayRef<Arm> arms);
   [[nodiscard]] Way merged(int condition, Way yes, Way no);
+  [[nodiscard]] bool has_to_leave(const Frame& frame, const llvm::BasicBlock* block);
   void enter(Frame& frame, const llvm::BasicBlock& block, const llvm::BasicBlock& from);
   const Shape& shape_of(const llvm::Function& function);
   void require_zero(int condition, const std::string& why, int of = -1);

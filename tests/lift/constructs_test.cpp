@@ -89,6 +89,20 @@ TEST_CASE("Integers of all widths and signs") {
                    "& 7u)) + (float)(k * k * k); }");
 }
 
+TEST_CASE("Loops that a number ends") {
+  const Listing search = check_step(kNoSetup +
+                                    "static const float ends[6] = {-1.0f, -0.5f, 0.0f, 0.5f, 1.0f, 2.0f};\n"
+                                    "void step(float y) { int i; for (i = 0; i < 5; ++i) if (y < ends[i]) "
+                                    "break; w = 0.5f * w + y * (float)i; }");
+  CHECK(search.obligations.empty());
+  const Listing wraps = check_step(
+      kNoSetup +
+      "static float x[4]; void step(float y) { for (int i = 0; i < 4; ++i) { x[i] += y * (float)(i + 1);\n"
+      "  while (x[i] > 3.0f) x[i] -= 6.0f; while (x[i] < -3.0f) x[i] += 6.0f; w = 0.5f * w + x[i]; } }");
+  CHECK(wraps.obligations.size() == 8);
+  CHECK(has_obligation(wraps, "a loop has ended"));
+}
+
 TEST_CASE("What is undefined is an obligation, where it is used") {
   const Listing guarded = check_step(kNoSetup +
                                      "void step(float y) { int k = y * 1e9f > 1e9f ? 7 : y < -1.0f ? 3 : "

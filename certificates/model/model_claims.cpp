@@ -220,7 +220,8 @@ class ModelClaims {
                : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
   }
   /// The stability of the linear recursion of a loop that is certified by gains.
-  void add_stability(const linear::RadiusBounds& radius) {
+  void add_stability(const linear::RadiusBounds& proved) {
+    const linear::RadiusBounds radius = linear::with_room(proved);
     Claim claim = reported("model/stability", words_.constant_tone() + ", without noise");
     if (radius.upper < 1.0) {
       const std::string decay = rigor::to_decimal(radius.upper, 8, rigor::Direction::up);

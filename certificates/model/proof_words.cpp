@@ -19,6 +19,8 @@ std::string gains_words(const NoGains& reason) {
       return "the bounds of its errors do not close, even without noise";
     case NoGains::Kind::residual:
       return "its steady state is not a linear function of the frequency over the whole band";
+    case NoGains::Kind::time:
+      return fmt::format("the time was over before {}; allowed: more --timeout", reason.detail);
     case NoGains::Kind::structure:
       break;
   }

@@ -21,6 +21,8 @@ TEST_CASE("why gains prove nothing, by constant coefficients and over the phase"
         "its steady state is not a linear function of the frequency over the whole band");
   CHECK(gains_words({Kind::structure, "a frequency that is an angle"}) == "a frequency that is an angle");
   CHECK(phase_gains_words({Kind::structure, "no basis"}) == "no basis");
+  CHECK(phase_gains_words({Kind::time, "a basis was found"}) ==
+        "the time was over before a basis was found; allowed: more --timeout");
 }
 
 TEST_CASE("why nothing is searched for") {

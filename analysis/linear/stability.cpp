@@ -1,5 +1,6 @@
 #include "analysis/linear/stability.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,12 @@ namespace veritrack::linear {
 
 using rigor::Interval;
 using rigor::Verdict;
+
+namespace {
+
+constexpr double kWidthsOfCrudeBounds = 64.0;
+
+}  // namespace
 
 std::vector<Interval> characteristic_polynomial(const std::vector<Row>& a) {
   const std::size_t n = a.size();
@@ -87,6 +94,39 @@ std::optional<RadiusBounds> spectral_radius_bounds(const std::vector<Row>& a) {
     }
   }
   return bounds.lower > 0.0 && bounds.upper > 0.0 ? std::optional(bounds) : std::nullopt;
+}
+
+RadiusBounds with_room(const RadiusBounds& bounds) {
+  constexpr double kLeast = 1e-6;
+  constexpr double kLeastOfDistance = 0.01;  // to 1
+  constexpr double kMostOfDistance = 0.5;
+  const auto room = [&](double bound) {
+    const double distance = std::fabs(1.0 - bound);
+    const double wanted = std::max(kWidthsOfCrudeBounds * (bounds.upper - bounds.lower),
+                                   std::min(kLeast, kLeastOfDistance * distance));
+    return std::min(wanted, kMostOfDistance * distance);
+  };
+  return {bounds.lower > 1.0 ? bounds.lower - room(bounds.lower) : bounds.lower,
+          bounds.upper < 1.0 ? bounds.upper + room(bounds.upper) : bounds.upper};
+}
+
+Row with_room(const Row& row) {
+  Row wider;
+  wider.reserve(row.size());
+  for (const Interval& entry : row) {
+    const Interval middle(rigor::midpoint(entry));
+    wider.push_back(middle + Interval(kWidthsOfCrudeBounds) * (entry - middle));
+  }
+  return wider;
+}
+
+std::vector<Row> with_room(const std::vector<Row>& rows) {
+  std::vector<Row> wider;
+  wider.reserve(rows.size());
+  for (const Row& row : rows) {
+    wider.push_back(with_room(row));
+  }
+  return wider;
 }
 
 }  // namespace veritrack::linear

@@ -26,4 +26,11 @@ struct RadiusBounds {
 /// Empty where none was proved. Needs the upward rounding mode.
 [[nodiscard]] std::optional<RadiusBounds> spectral_radius_bounds(const std::vector<Row>& a);
 
+/// Looser bounds, for a program whose own are cruder. They stay on their side of 1. Needs the upward rounding
+/// mode.
+[[nodiscard]] RadiusBounds with_room(const RadiusBounds& bounds);
+/// The same with wider entries.
+[[nodiscard]] Row with_room(const Row& row);
+[[nodiscard]] std::vector<Row> with_room(const std::vector<Row>& rows);
+
 }  // namespace veritrack::linear

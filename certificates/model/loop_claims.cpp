@@ -87,7 +87,7 @@ class LoopClaims {
               number);
     if (network_ != nullptr) {
       const double slowest = sets_->gains->radius->upper;
-      conclude(claim, time_constant_verdict(network_->a, number.value),
+      conclude(claim, time_constant_verdict(*sets_->gains->radius, number.value),
                slowest < 1.0 ? "The time constant is proved to be at most " +
                                    time(Interval(-1.0) / log(Interval(slowest)))
                              : "No time constant was proved",
@@ -102,7 +102,7 @@ class LoopClaims {
     if (const auto loop = detector(claim)) {
       const FrequencyUnits units(tables_->assume.sample_rate);
       const std::optional<Interval> bandwidth = linear::noise_bandwidth(*loop);
-      conclude(claim, bandwidth ? bandwidth_verdict(*bandwidth, number.value) : Verdict::undecided,
+      conclude(claim, bandwidth_verdict(*loop, number.value),
                bandwidth ? "The noise bandwidth is proved to be at most " + units.at_most(*bandwidth)
                          : "No noise bandwidth was proved",
                "below " + frequency_words(number));

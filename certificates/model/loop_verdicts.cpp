@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "analysis/linear/loop_margins.hpp"
 #include "analysis/linear/mode_damping.hpp"
-#include "analysis/linear/stability.hpp"
 #include "analysis/model/gain/linear_loop.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -51,6 +51,11 @@ std::string largest_proved(double proposed, const Decide& decide) {
   return "";
 }
 
+/// Entries that the checker may know less exactly.
+linear::DetectorLoop with_room(const linear::DetectorLoop& loop) {
+  return {linear::with_room(loop.a), linear::with_room(loop.effect), linear::with_room(loop.phase)};
+}
+
 double proposed_damping(const model::LoopNetwork& network) {
   double smallest = 1.0;
   for (const linear::LoopMode& mode : linear::modes_of(model::linear_loop(network))) {
@@ -73,30 +78,34 @@ double proposed_margin(const linear::DetectorLoop& loop) {
 }  // namespace
 
 LoopVerdict damping_verdict(const model::LoopNetwork& network, const Interval& least) {
-  const auto decide = [&](const Interval& damping) {
-    return rigor::certainly_less(damping, Interval(1.0)) ? linear::has_damping(network.a, damping)
+  const auto decide = [a = linear::with_room(network.a)](const Interval& damping) {
+    return rigor::certainly_less(damping, Interval(1.0)) ? linear::has_damping(a, damping)
                                                          : Verdict::undecided;
   };
   return {least_with_room(least, decide), largest_proved(proposed_damping(network), decide)};
 }
 
 LoopVerdict gain_margin_verdict(const linear::DetectorLoop& loop, const Interval& decibels) {
-  const auto decide = [&](const Interval& margin) { return linear::is_stable_up_to(loop, gain_of(margin)); };
+  const auto decide = [crude = with_room(loop)](const Interval& margin) {
+    return linear::is_stable_up_to(crude, gain_of(margin));
+  };
   return {least_with_room(decibels, decide), largest_proved(proposed_margin(loop), decide)};
 }
 
-Verdict time_constant_verdict(const std::vector<linear::Row>& a, const Interval& samples) {
+Verdict time_constant_verdict(const linear::RadiusBounds& radius, const Interval& samples) {
   const auto shrinking = [](const Interval& time) { return exp(Interval(-1.0) / time); };
-  return linear::are_within(a, shrinking(without_room(samples)).lower()) == Verdict::proved ? Verdict::proved
-         : linear::are_within(a, shrinking(with_room(samples)).upper()) == Verdict::refuted
-             ? Verdict::refuted
-             : Verdict::undecided;
+  const linear::RadiusBounds crude = linear::with_room(radius);
+  return rigor::certainly_less(Interval(crude.upper), shrinking(without_room(samples))) ? Verdict::proved
+         : rigor::certainly_less(shrinking(with_room(samples)), Interval(crude.lower))  ? Verdict::refuted
+                                                                                        : Verdict::undecided;
 }
 
-Verdict bandwidth_verdict(const Interval& bandwidth, const Interval& required) {
-  return rigor::certainly_less(with_room(bandwidth), required)      ? Verdict::proved
-         : rigor::certainly_less(required, without_room(bandwidth)) ? Verdict::refuted
-                                                                    : Verdict::undecided;
+Verdict bandwidth_verdict(const linear::DetectorLoop& loop, const Interval& required) {
+  const std::optional<Interval> bandwidth = linear::noise_bandwidth(with_room(loop));
+  return !bandwidth                                                  ? Verdict::undecided
+         : rigor::certainly_less(with_room(*bandwidth), required)    ? Verdict::proved
+         : rigor::certainly_less(required, without_room(*bandwidth)) ? Verdict::refuted
+                                                                     : Verdict::undecided;
 }
 
 }  // namespace veritrack::certificates

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "analysis/linear/detector_loop.hpp"
+#include "analysis/linear/stability.hpp"
 #include "analysis/model/gain/loop_network.hpp"
 #include "analysis/rigor/verdict.hpp"
 
@@ -24,10 +24,10 @@ struct LoopVerdict {
                                               const rigor::Interval& decibels);
 
 /// The slowest mode shrinks by e in at most so many samples.
-[[nodiscard]] rigor::Verdict time_constant_verdict(const std::vector<linear::Row>& a,
+[[nodiscard]] rigor::Verdict time_constant_verdict(const linear::RadiusBounds& radius,
                                                    const rigor::Interval& samples);
-/// An enclosed bandwidth is below this.
-[[nodiscard]] rigor::Verdict bandwidth_verdict(const rigor::Interval& bandwidth,
+/// The bandwidth is below this.
+[[nodiscard]] rigor::Verdict bandwidth_verdict(const linear::DetectorLoop& loop,
                                                const rigor::Interval& required);
 
 }  // namespace veritrack::certificates

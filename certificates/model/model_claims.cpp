@@ -221,7 +221,8 @@ class ModelClaims {
                : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
   }
   /// The stability of the linear recursion of a loop that is certified by gains.
-  void add_stability(const linear::RadiusBounds& radius) {
+  void add_stability(const linear::RadiusBounds& proved) {
+    const linear::RadiusBounds radius = linear::with_room(proved);
     const ModelWords exact(*tables_, std::nullopt, sets_->starts_in(*deciding_));
     Claim claim = reported("model/stability", exact.constant_tone() + ", without noise");
     if (radius.upper < 1.0) {

@@ -65,6 +65,23 @@ double function_remainder(const FunctionRule& rule, const Interval& base, double
   return sum;
 }
 
+/// The same of exp, whose slope at the base is known: one power after the other.
+double exponential_remainder(const Interval& slope, double bound) {
+  constexpr double kCells = 64.0;
+  if (!(bound < INFINITY)) {
+    return INFINITY;
+  }
+  const double width = bound / kCells;
+  const double growth = rigor::exp(Interval(width)).upper();
+  double at_end = slope.upper();
+  double sum = 0.0;
+  for (int i = 0; i < static_cast<int>(kCells); ++i) {
+    at_end = rigor::mul_up(at_end, growth);
+    sum = rigor::add_up(sum, rigor::mul_up(rigor::sub_up(at_end, slope.lower()), width));
+  }
+  return sum < INFINITY ? sum : INFINITY;
+}
+
 }  // namespace
 
 FrameLine FrameRules::product_line(Frame& frame, const FrameLine& a, const FrameLine& b, bool is_square) {
@@ -106,9 +123,12 @@ FrameLine FrameRules::function_line(Frame& frame, FrameOperation operation, cons
   }
   line = sum_of(line, scaled(form_of(operand), slope, std::nullopt), false);
   const auto form = static_cast<std::size_t>(add_form(frame, operand));
-  add_remainder(frame, line, rule.name, [rule, base, form](const std::vector<double>& bounds) {
-    return function_remainder(rule, base, bounds[form]);
-  });
+  const bool is_exponential = operation == FrameOperation::exponential;
+  add_remainder(frame, line, rule.name,
+                [rule, base, slope, form, is_exponential](const std::vector<double>& bounds) {
+                  return is_exponential ? exponential_remainder(slope, bounds[form])
+                                        : function_remainder(rule, base, bounds[form]);
+                });
   return line;
 }
 

@@ -66,13 +66,13 @@ class GainBounds::Block {
   }
 
   /// Bounds that contain their own right side, from below.
-  [[nodiscard]] std::optional<Numbers> solved() const {
+  [[nodiscard]] std::optional<Numbers> solved(const search::Deadline& deadline) const {
     constexpr int kRounds = 5000;
     constexpr double kStep = 1.0 + 0x1p-20;
     Numbers bounds = at(Numbers(known_.size(), 0.0));
     for (int round = 0; round < kRounds; ++round) {
       const Numbers next = at(bounds);
-      if (!gains_->keeps_limits(bounds)) {
+      if (!gains_->keeps_limits(bounds) || deadline.is_over()) {
         return std::nullopt;
       }
       if (is_at_most(next, bounds)) {
@@ -175,7 +175,8 @@ Numbers GainBounds::start_of_block(const LoopDisturbance& disturbance, std::size
   return start;
 }
 
-std::optional<std::vector<Numbers>> GainBounds::sequence(const LoopDisturbance& disturbance) const {
+std::optional<std::vector<Numbers>> GainBounds::sequence(const LoopDisturbance& disturbance,
+                                                         const search::Deadline& deadline) const {
   constexpr int kRounds = 20;
   constexpr double kRoom = 1.0 + 0x1p-10;
   Numbers largest(network_.inputs.size(), 0.0);
@@ -184,7 +185,7 @@ std::optional<std::vector<Numbers>> GainBounds::sequence(const LoopDisturbance& 
     std::vector<Numbers> sizes;
     Numbers found(largest.size(), 0.0);
     for (std::size_t block = 0; block <= blocks_; ++block) {
-      const std::optional<Numbers> solved = Block(*this, disturbance, block, sizes, largest).solved();
+      const std::optional<Numbers> solved = Block(*this, disturbance, block, sizes, largest).solved(deadline);
       if (!solved) {
         return std::nullopt;
       }
@@ -241,10 +242,11 @@ double GainBounds::residual_error() const {
   return sum;
 }
 
-std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance) const {
+std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance,
+                                             const search::Deadline& deadline) const {
   const bool is_covered = !network_.has_ripples || !(disturbance.slew > 0.0);
   const std::optional<std::vector<Numbers>> sequence =
-      is_covered ? this->sequence(disturbance) : std::nullopt;
+      is_covered ? this->sequence(disturbance, deadline) : std::nullopt;
   if (!sequence) {
     return std::nullopt;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/model/gain/loop_network.hpp"
+#include "analysis/search/deadline.hpp"
 
 namespace veritrack::model {
 
@@ -51,8 +52,9 @@ class GainBounds {
   /// The frequency error from the listed steady state, which is only approximate.
   [[nodiscard]] double residual_error() const;
 
-  /// Empty where no bound closes.
-  [[nodiscard]] std::optional<LoopBounds> bounds(const LoopDisturbance& disturbance) const;
+  /// Empty where no bound closes, or none has closed at the deadline.
+  [[nodiscard]] std::optional<LoopBounds> bounds(const LoopDisturbance& disturbance,
+                                                 const search::Deadline& deadline = {}) const;
 
  private:
   GainBounds(LoopNetwork network, linear::WorstCaseGains gains, std::size_t samples, std::size_t blocks);
@@ -61,7 +63,8 @@ class GainBounds {
   [[nodiscard]] std::vector<double> sizes(const LoopDisturbance& disturbance, const Bounds& bounds) const;
   [[nodiscard]] bool keeps_limits(const Bounds& bounds) const;
   [[nodiscard]] Bounds start_of_block(const LoopDisturbance& disturbance, std::size_t block) const;
-  [[nodiscard]] std::optional<std::vector<Bounds>> sequence(const LoopDisturbance& disturbance) const;
+  [[nodiscard]] std::optional<std::vector<Bounds>> sequence(const LoopDisturbance& disturbance,
+                                                            const search::Deadline& deadline) const;
   [[nodiscard]] Bounds in_the_long_run(const LoopDisturbance& disturbance, Bounds bounds) const;
   class Block;
 

@@ -12,7 +12,6 @@
 
 #include "analysis/model/gain/factor_order.hpp"
 #include "analysis/model/gain/floquet_proposal.hpp"
-#include "analysis/model/gain/frame_value.hpp"
 #include "analysis/model/gain/upward_parts.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -316,9 +315,12 @@ PhaseLoop PhaseLoop::make(const TrackerModel& tracker, const TrackedTone& tone, 
                           bool with_slew, const search::Deadline& deadline) {
   constexpr std::size_t kMostCells = 8;
   std::string reason = "no basis was found in which its errors have constant coefficients and decay";
-  for (std::size_t count = 1; count <= (with_slew ? 1 : kMostCells) && !deadline.is_over(); count *= 2) {
+  for (std::size_t count = 1; count <= (with_slew ? 1 : kMostCells); count *= 2) {
     std::optional<PhaseLoop> best;
     for (const FloquetGauge gauge : {FloquetGauge::by_mode, FloquetGauge::by_state}) {
+      if (!best && deadline.is_over()) {
+        throw NoTime("a basis was found in which its errors have constant coefficients and decay");
+      }
       auto cells = cells_of(tone, band, count, gauge);
       if (!cells) {
         continue;

@@ -9,16 +9,24 @@
 #include <string>
 #include <vector>
 
+#include "analysis/model/gain/frame_value.hpp"
 #include "analysis/model/gain/phase_gains.hpp"
 #include "analysis/search/deadline.hpp"
 
 namespace veritrack::model {
 
+/// The deadline was over before a basis and its bounds were found.
+class NoTime : public NoFrame {
+ public:
+  using NoFrame::NoFrame;
+};
+
 class PhaseLoop {
  public:
   /// `with_slew`: for bounds with a slew, too, which needs one cell. Throws NoFrame, with the reason, where
-  /// the rules do not cover the loop, there is no steady state or no basis, errors decay too slowly or not,
-  /// or the deadline is over. Tracker and tone must outlive it. Needs the upward rounding mode.
+  /// the rules do not cover the loop, there is no steady state or no basis, or errors decay too slowly or
+  /// not; NoTime where the deadline is over before all was tried. Tracker and tone must outlive it. Needs the
+  /// upward rounding mode.
   [[nodiscard]] static PhaseLoop make(const TrackerModel& tracker, const TrackedTone& tone,
                                       const rigor::Interval& band, bool with_slew,
                                       const search::Deadline& deadline);

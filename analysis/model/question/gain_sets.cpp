@@ -11,6 +11,7 @@
 #include "analysis/model/question/found_loop.hpp"
 #include "analysis/model/question/largest_value.hpp"
 #include "analysis/model/tube/false_lock.hpp"
+#include "analysis/model/tube/tube_proposal.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::model {
@@ -32,18 +33,20 @@ class GainSets {
   GainSets(const SetQuestion& question, const GainBounds& gains, double half_distance)
       : question_(&question), gains_(&gains), half_distance_(half_distance) {}
 
+  /// The deadline ends the searches for largest values only.
   [[nodiscard]] ProvedSets all() {
     ProvedSets sets;
     sets.starts = set_of(kStarts, {});
     add_bias(sets.starts);
-    add_reach(sets.starts, {});
     sets.assumed = set_of(kAssumed, {question_->noise, question_->slew, {}});
     add_starts(*sets.assumed);
+    add_reach(sets.starts, {});
     if (question_->largest_noise) {
-      sets.noise = largest(kLargestNoise, question_->tracker.amplitude.lower(), &LoopDisturbance::noise);
+      sets.noise = largest(kLargestNoise, question_->tracker.amplitude.lower(), &LoopDisturbance::noise,
+                           question_->noise);
     }
     if (question_->largest_slew) {
-      sets.slew = largest(kLargestSlew, rigor::pi().lower(), &LoopDisturbance::slew);
+      sets.slew = largest(kLargestSlew, rigor::pi().lower(), &LoopDisturbance::slew, question_->slew);
     }
     if (question_->reach_of_assumed) {
       const LoopDisturbance assumed{question_->noise, question_->slew, {}};
@@ -67,6 +70,11 @@ class GainSets {
     return rigor::add_up(widened(*gains_, long_run), kRounding);
   }
 
+  /// For a search, which ends at the deadline.
+  [[nodiscard]] std::optional<LoopBounds> tried(const LoopDisturbance& disturbance) const {
+    return question_->deadline.is_over() ? std::nullopt : gains_->bounds(disturbance, question_->deadline);
+  }
+
   /// A set for starts in the steady state.
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance) const {
     ProvedSet set;
@@ -86,15 +94,24 @@ class GainSets {
     return set;
   }
 
-  [[nodiscard]] ProvedSet largest(const char* name, double most, double LoopDisturbance::*size) const {
-    const double found = largest_with(most, [&](double value) {
+  /// At least the assumed one, where that is a lock: a search ends a little below what it finds.
+  [[nodiscard]] ProvedSet largest(const char* name, double most, double LoopDisturbance::*size,
+                                  double assumed) const {
+    const auto alone = [&](double value) {
       LoopDisturbance disturbance;
       disturbance.*size = value;
-      return is_lock(gains_->bounds(disturbance));
-    });
-    LoopDisturbance disturbance;
-    disturbance.*size = found;
-    return set_of(name, disturbance);
+      return disturbance;
+    };
+    double found = largest_with(most, [&](double value) { return is_lock(tried(alone(value))); });
+    if (assumed > found && is_lock(gains_->bounds(alone(assumed)))) {
+      found = assumed;
+    }
+    ProvedSet set = set_of(name, alone(found));
+    if (!(found > 0.0) && question_->deadline.is_over()) {
+      set.tubes.is_complete = false;
+      set.tubes.reasons = {kTimeLimit};
+    }
+    return set;
   }
 
   /// Without noise the error in the long run is that of the steady state, up to its residual.
@@ -120,10 +137,10 @@ class GainSets {
       disturbance.start.assign(gains_->network().a.size(), 0.0);
       const double deviation = rigor::add_up(error, rigor::magnitude(gains_->network().bias));
       disturbance.start[state->first] = rigor::div_up(deviation, state->second);
-      return gains_->bounds(disturbance);
+      return disturbance;
     };
-    set.reach = largest_with(rigor::pi().lower(), [&](double error) { return is_lock(from(error)); });
-    if (const auto bounds = from(set.reach); set.reach > 0.0 && bounds) {
+    set.reach = largest_with(rigor::pi().lower(), [&](double error) { return is_lock(tried(from(error))); });
+    if (const auto bounds = gains_->bounds(from(set.reach)); set.reach > 0.0 && bounds) {
       set.frequency_error = widened(*gains_, bounds->for_ever);
     }
   }
@@ -139,14 +156,14 @@ class GainSets {
       for (const Interval& each : question_->deviations) {
         disturbance.start.push_back(rigor::mul_up(share, each.upper()));
       }
-      return gains_->bounds(disturbance);
+      return disturbance;
     };
-    if (const auto bounds = from(1.0)) {
+    if (const auto bounds = gains_->bounds(from(1.0))) {
       set.frequency_error = widened(*gains_, bounds->for_ever);
       set.settled_error = above_limit(bounds->long_run);
       return;
     }
-    const double share = largest_with(1.0, [&](double each) { return from(each).has_value(); });
+    const double share = largest_with(1.0, [&](double each) { return tried(from(each)).has_value(); });
     set.start_share = share > 0.0 ? 1.0 / share : INFINITY;
   }
 

@@ -12,7 +12,8 @@ struct NoGains {
     steady_state,  ///< none was found
     bounds,        ///< those of the errors do not close, even without noise
     residual,      ///< the steady state is not linear in the frequency over the whole band
-    structure      ///< of the loop, by `detail`
+    structure,     ///< of the loop, by `detail`
+    time           ///< it was over before `detail`
   };
   Kind kind = Kind::question;
   std::string detail = {};

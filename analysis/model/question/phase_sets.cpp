@@ -1,6 +1,7 @@
 #include "analysis/model/question/phase_sets.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -38,6 +39,9 @@ class PhaseSets {
     }
     return find_sizes() ? std::optional(proof()) : std::nullopt;
   }
+
+  /// Whether the deadline was over before all parts had their bounds.
+  [[nodiscard]] bool was_stopped() const { return was_stopped_; }
 
  private:
   /// The bounds that are asked of each part at a constant frequency.
@@ -148,7 +152,11 @@ class PhaseSets {
         half_distance_, [&](double error) { return is_lock(from_error(probe, error)); }, kSteps);
     std::vector<OfPart> parts(loop_->parts());
     const bool is_done = loop_->for_each_part([&](std::size_t number, const PhaseGains& gains) {
-      return !question_->deadline.is_over() && find_part(gains, parts[number]);
+      if (question_->deadline.is_over()) {
+        was_stopped_ = true;
+        return false;
+      }
+      return find_part(gains, parts[number]);
     });
     if (!is_done) {
       return false;
@@ -234,6 +242,7 @@ class PhaseSets {
   double half_distance_;
   KnownLimits known_;
   bool closes_for_assumed_ = false;
+  std::atomic<bool> was_stopped_ = false;  // parts are worked on in parallel
   double probed_noise_ = 0.0, probed_reach_ = 0.0;
   std::optional<PhaseErrors> still_, assumed_, from_starts_, at_noise_, at_reach_;
   double noise_ = 0.0, reach_ = 0.0;
@@ -271,8 +280,13 @@ std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, Know
     const PhaseLoop loop =
         PhaseLoop::make(question.tracker, question.tone, band, question.slew > 0.0, question.deadline);
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
-    auto proof = PhaseSets(question, loop, half_distance, known).all();
-    return proof ? std::move(proof) : nothing(NoGains::Kind::bounds);
+    PhaseSets sets(question, loop, half_distance, known);
+    auto proof = sets.all();
+    return proof                ? std::move(proof)
+           : sets.was_stopped() ? nothing(NoGains::Kind::time, "the bounds of its errors were found")
+                                : nothing(NoGains::Kind::bounds);
+  } catch (const NoTime& missed) {
+    return nothing(NoGains::Kind::time, missed.what());
   } catch (const NoFrame& objection) {
     return nothing(NoGains::Kind::structure, objection.what());
   }

@@ -74,5 +74,28 @@ TEST_CASE("of intervals that reach the circle nothing is decided") {
   CHECK(are_within({{Interval(0.0)}}, 0.5) == Verdict::proved);
 }
 
+TEST_CASE("bounds for a cruder program are looser, and stay on their side of 1") {
+  const rigor::UpwardRounding upward;
+  const RadiusBounds decay = with_room(RadiusBounds{0.98 - 1e-10, 0.98 + 1e-10});
+  CHECK(decay.lower == 0.98 - 1e-10);
+  CHECK(decay.upper > 0.98 + 9e-7);
+  CHECK(decay.upper < 0.98 + 2e-6);
+  const RadiusBounds slow = with_room(RadiusBounds{1.0 - 1.1e-5, 1.0 - 1e-5});
+  CHECK(slow.upper > 1.0 - 1e-5);
+  CHECK(slow.upper < 1.0);
+  const RadiusBounds growth = with_room(RadiusBounds{1.02, 1.02 + 1e-7});
+  CHECK(growth.lower < 1.02 - 6e-6);
+  CHECK(growth.lower > 1.01);
+  CHECK(growth.upper == 1.02 + 1e-7);
+  CHECK(with_room(RadiusBounds{0.9, 1.1}).lower == 0.9);
+  CHECK(with_room(RadiusBounds{0.9, 1.1}).upper == 1.1);
+
+  const std::vector<Row> rows{{Interval(2.0), Interval::from_bounds(1.0, 1.0 + 0x1p-20)}};
+  const std::vector<Row> wider = with_room(rows);
+  CHECK(rigor::width(wider[0][0]) == 0.0);
+  CHECK(wider[0][1].lower() < 1.0 - 0x1p-16);
+  CHECK(wider[0][1].upper() > 1.0 + 0x1p-16);
+}
+
 }  // namespace
 }  // namespace veritrack::linear

@@ -156,4 +156,39 @@ TEST_CASE("where there is no one linear loop, or no one detector, the reason say
   CHECK(found->reason.starts_with("This is known of loops that are certified by gains only"));
 }
 
+TEST_CASE("the claimed decay is above the largest eigenvalue by what a cruder checker needs") {
+  // The eigenvalue of the filter behind the loop is the largest one: the checker did not reach 0.98055656.
+  const std::string text = R"(name = "resolver to digital"
+tracker = "model"
+[model]
+samples = ['c', 's']
+parameters = { T = '1/16000', wn = '2*pi*250', kp = '1.6*wn', ki = 'wn^2', al = '1 - exp(-2*pi*50*T)' }
+states = ['th', 'w', 'out']
+angles = ['th']
+step = '''
+e    = s*cos(th) - c*sin(th)
+w'   = w + T*ki*e
+th'  = th + T*(w' + kp*e)
+out' = out + al*(w' - out)
+'''
+frequency = 'out*T'
+start = { th = 'omega', w = 'omega/T', out = 'omega/T' }
+[assume]
+amplitude = 1
+frequency = [-0.15, 0.15]
+noise = 0.02
+)";
+  const Certificate certificate =
+      certify(test::loop_design(text), "loop.toml", text, {}, Extent::requirements);
+  const auto found = std::find_if(certificate.claims.begin(), certificate.claims.end(),
+                                  [](const Claim& claim) { return claim.id == "model/stability"; });
+  REQUIRE(found != certificate.claims.end());
+  REQUIRE(found->values.size() == 1);
+  const std::string decay = found->values.front().second;
+  CHECK(decay.size() <= 10);
+  const double largest = std::exp(-std::acos(-1.0) / 160.0);
+  CHECK(std::stod(decay) > largest + 9e-7);
+  CHECK(std::stod(decay) < largest + 2e-6);
+}
+
 }  // namespace veritrack::certificates

@@ -21,6 +21,8 @@ TEST_CASE("why gains prove nothing, by constant coefficients and over the phase"
         "its steady state is not a linear function of the frequency over the whole band");
   CHECK(gains_words({Kind::structure, "a frequency that is an angle"}) == "a frequency that is an angle");
   CHECK(phase_gains_words({Kind::structure, "no basis"}) == "no basis");
+  CHECK(phase_gains_words({Kind::time, "a basis was found"}) ==
+        "the time was over before a basis was found; allowed: more --timeout");
 }
 
 TEST_CASE("why nothing is searched for") {
@@ -31,6 +33,10 @@ TEST_CASE("why nothing is searched for") {
   CHECK(objection_words({Objection::negative_frequencies}, model::NoGains{Kind::bounds}) ==
         "frequencies below 0 are certified by gains only (docs/model.md), and this loop is not: the bounds "
         "of its errors do not close, even without noise");
+  CHECK(objection_words({Objection::negative_frequencies, 0, 0, "a, b and c may turn together"},
+                        model::NoGains{Kind::steady_state}) ==
+        "frequencies below 0 are certified by gains only (docs/model.md), and this loop is not: no steady "
+        "state was found from [model] start. But a, b and c may turn together");
 }
 
 }  // namespace

@@ -81,6 +81,14 @@ TEST_CASE("noise that is tolerated: the gain to the phase, in long double, and t
   CHECK_FALSE(made.gains.bounds({INFINITY, 0.0, {}}).has_value());
 }
 
+TEST_CASE("no bound closes after the deadline") {
+  const rigor::UpwardRounding upward;
+  const Bounded made(0.2, 0.01, Detector::sine);
+  CHECK(made.gains.bounds({0.1, 0.0, {}}));
+  CHECK(made.gains.bounds({0.1, 0.0, {}}, search::Deadline(1000.0)));
+  CHECK_FALSE(made.gains.bounds({0.1, 0.0, {}}, search::Deadline(0.0)));
+}
+
 TEST_CASE("no attack passes a bound, and it comes near where the loop is nearly linear") {
   for (const Detector detector :
        {Detector::arctangent2, Detector::arctangent, Detector::sine, Detector::normalised}) {

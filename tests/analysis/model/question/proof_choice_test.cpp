@@ -103,6 +103,13 @@ TEST_CASE("gains stand where tubes prove nothing") {
   REQUIRE(without.no_phase_gains);
   CHECK(without.no_phase_gains->kind == NoGains::Kind::band);
   CHECK_FALSE(without.sets.deciding().is_proved());
+
+  // The time is over: nothing is said of the loop.
+  question.whole_band = Interval::from_bounds(0.3, 0.3002);
+  const ChosenProof late = choose_proof(question, std::nullopt);
+  REQUIRE(late.no_phase_gains);
+  CHECK(late.no_phase_gains->kind == NoGains::Kind::time);
+  CHECK(late.no_phase_gains->detail.find("a basis was found") == 0);
 }
 
 }  // namespace

@@ -37,8 +37,10 @@ Executor::Executor(const llvm::Module& module) : module_(&module), memory_(graph
       try {
         memory_.initialize(globals_.at(&global), 0, *global.getInitializer(), globals_);
       } catch (const LiftError&) {
-        continue;  // a constant that is not understood: to read it is an error
+        memory_.end(globals_.at(&global));  // a constant that is not understood: to read it is an error
       }
+    } else if (global.isDeclaration()) {
+      memory_.end(globals_.at(&global));
     }
   }
 }
@@ -48,12 +50,19 @@ void Executor::construct_globals() {
   if (list == nullptr || !list->hasInitializer()) {
     return;
   }
+  std::vector<std::pair<std::uint64_t, const llvm::Function*>> constructors;
   for (const llvm::Use& entry : list->getInitializer()->operands()) {
-    const auto* constructor =
-        llvm::dyn_cast<llvm::Function>(llvm::cast<llvm::Constant>(entry)->getOperand(1));
+    const auto* constant = llvm::cast<llvm::Constant>(entry);
+    const auto* constructor = llvm::dyn_cast<llvm::Function>(constant->getOperand(1));
     if (constructor != nullptr && !constructor->isDeclaration()) {
-      (void)call(*constructor, {});
+      constructors.emplace_back(llvm::cast<llvm::ConstantInt>(constant->getOperand(0))->getZExtValue(),
+                                constructor);
     }
+  }
+  std::stable_sort(constructors.begin(), constructors.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });  // by priority
+  for (const auto& [priority, constructor] : constructors) {
+    (void)call(*constructor, {});
   }
 }
 

@@ -20,20 +20,29 @@ namespace {
 
 using trackers::code::Listing;
 
-/// The function of a harness, by the name that the source gives it.
+/// The function of a harness, by the name that the source gives it; one that other files see comes first.
 const llvm::Function& function_called(const llvm::Module& module, const std::string& name) {
+  std::vector<const llvm::Function*> found;
   for (const llvm::Function& function : module) {
     const llvm::DISubprogram* source = function.getSubprogram();
     const bool is_it = function.getName() == name ||
                        (source != nullptr && source->getName() == name &&
                         (source->getScope() == nullptr || llvm::isa<llvm::DIFile>(source->getScope())));
     if (is_it && !function.isDeclaration()) {
-      return function;
+      found.push_back(&function);
     }
   }
-  throw LiftError("no function is called " + name +
-                  "; allowed: files that define setup, step and frequency, e.g. " +
-                  "void setup(void) {...}  void step(float y) {...}  float frequency(void) {...}");
+  const auto hidden = std::stable_partition(
+      found.begin(), found.end(), [](const llvm::Function* each) { return !each->hasLocalLinkage(); });
+  if (found.empty()) {
+    throw LiftError("no function is called " + name +
+                    "; allowed: files that define setup, step and frequency, e.g. " +
+                    "void setup(void) {...}  void step(float y) {...}  float frequency(void) {...}");
+  }
+  if (hidden - found.begin() > 1 || (hidden == found.begin() && found.size() > 1)) {
+    throw LiftError("several functions are called " + name + "; allowed: one");
+  }
+  return *found.front();
 }
 
 /// The name without its last index: ring.past of ring.past_3.

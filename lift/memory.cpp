@@ -14,6 +14,15 @@ namespace {
 
 constexpr std::int64_t kMostBytes = 1 << 20;  // of an object
 
+/// Whether an expression is the same address in another type.
+bool keeps_bits(const llvm::ConstantExpr* expression) {
+  using Op = llvm::Instruction;
+  constexpr unsigned kFewBits = 32;
+  const unsigned opcode = expression == nullptr ? 0 : expression->getOpcode();
+  return opcode == Op::BitCast || opcode == Op::AddrSpaceCast || opcode == Op::IntToPtr ||
+         (opcode == Op::PtrToInt && expression->getType()->getScalarSizeInBits() >= kFewBits);
+}
+
 bool is_aggregate(llvm::Type* type) {
   return type->isAggregateType() || type->isVectorTy();
 }
@@ -192,7 +201,7 @@ Value Memory::constant(const llvm::Constant& constant,
       return Address{address->object, address->offset + offset.getSExtValue(), -1, 0};
     }
   }
-  if (const auto* cast = llvm::dyn_cast<llvm::ConstantExpr>(&constant); cast != nullptr && cast->isCast()) {
+  if (const auto* cast = llvm::dyn_cast<llvm::ConstantExpr>(&constant); keeps_bits(cast)) {
     return this->constant(*cast->getOperand(0), globals);
   }
   throw LiftError("a constant that is not understood");
@@ -224,7 +233,10 @@ Address Memory::known(const Value& address, const char* purpose) const {
     throw LiftError(std::string(purpose) + " through a null or an unknown pointer");
   }
   if (const Object& object = objects_[static_cast<std::size_t>(place->object)]; object.is_gone) {
-    throw LiftError(std::string(purpose) + " of " + object.name + ", which is not there any more");
+    throw LiftError(std::string(purpose) + " of " + object.name +
+                    (object.global == nullptr         ? ", which is not there any more"
+                     : object.global->isDeclaration() ? ", which no file defines"
+                                                      : ", whose first value is not understood"));
   }
   return *place;
 }

@@ -33,7 +33,7 @@ struct Object {
   bool read_only = false;
   bool is_variable = false;  ///< of a function
   std::int64_t size = 0;     ///< bytes
-  bool is_gone = false;      ///< a variable of a function that has returned, or memory that was given back
+  bool is_gone = false;      ///< a variable of a function that has returned, memory that was given back
 };
 
 class Memory {

@@ -59,7 +59,7 @@ TEST_CASE("Operations that compilers may compute otherwise, or that nobody knows
       {"numbers in half, extended or quadruple precision (long double); allowed: float and double",
        "void step(float y) { w = (float)((long double)w * y + 1e-3L); }"},
       {"integers of more than 64 bits",
-       "__int128 k; void step(float y) { k = k * 3 + (int)y; w = (float)k; }"},
+       "void step(float y) { w = (float)(((__int128)(long)(y * 1e3f) * (long)(w * 1e9f)) >> 70); }"},
       {"an operation that is not followed: atomicrmw",
        "_Atomic int k; void step(float y) { k += (int)y; w = (float)k; }"},
   });
@@ -99,6 +99,9 @@ TEST_CASE("Memory that is not known is refused") {
        "void step(float y) { w += y; n = ((unsigned short*)&w)[1]; w += (float)n; }"},
       {"a part of a value of 4 bytes is written",
        "void step(float y) { w += y; ((volatile unsigned char*)&w)[1] = 7; }"},
+      {"a read of z, which no file defines", "extern float z; void step(float y) { w = y > 0 ? z : w; }"},
+      {"a read of z, whose first value is not understood",
+       "struct { long double x; float k; } z = {1.0L, 0.5f}; void step(float y) { w = 0.5f * w + z.k * y; }"},
       {"an array whose length is not a constant",
        "void step(float y) { volatile float k[(n & 3) + 1]; k[0] = y; w += y; n++; }"},
   });
@@ -133,6 +136,11 @@ TEST_CASE("Functions that are missing or of other types are refused") {
         std::string::npos);
   CHECK(error(setup + "float frequency(void) { return w; }").find("no function is called step") !=
         std::string::npos);
+  CHECK(lift_text("static float w; void setup() {} void step(float y) { w += y; } void step(double y) { w -= "
+                  "(float)y; }"
+                  "float frequency() { return w; }",
+                  "step.cpp")
+            .error.find("several functions are called step; allowed: one") != std::string::npos);
   CHECK(error(setup + step + "int frequency(void) { return (int)w; }").find("frequency returns no number") !=
         std::string::npos);
   CHECK(error(setup + step + "float frequency(void) { w += 1; return w; }").find("frequency changes w") !=

@@ -79,8 +79,8 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
       "of these cells. In the certified set the frequency error is at most {}, and at most {} from {} "
       "samples "
       "later on.\n\n",
-      certificates::arithmetic_of(tables.model, false), amplitude_of(tables.assume), frequency_of(map, units), noise,
-      map.x.name, map.y.name, map.longest(), units.at_most(map.frequency_error),
+      certificates::arithmetic_of(tables.model, false), amplitude_of(tables.assume), frequency_of(map, units),
+      noise, map.x.name, map.y.name, map.longest(), units.at_most(map.frequency_error),
       units.at_most(map.settled_error),
       std::isfinite(map.settling_samples) ? fmt::format("{:.0f}", map.settling_samples)
                                           : "an unknown number of");

@@ -1,4 +1,5 @@
-// A ring of past samples: the sample of a quarter of a period before makes the quadrature of a single channel.
+// A ring of past samples: the sample of a quarter of a period before makes the quadrature of a single
+// channel.
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -90,12 +90,13 @@ std::vector<double> constant_registers(const Model& model, const CompiledProgram
 
 /// Whether it converts turns to rad, or rad to turns.
 bool converts_turns(const Model& model, const CompiledProgram& compiled, const trackers::Instruction& made) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
+  constexpr double kRadiansInTurn = 2.0 * std::numbers::pi;
   constexpr double kClose = 1e-9;
   const bool is_factor = made.operation == Operation::multiply || made.operation == Operation::divide;
   const std::vector<double> values = is_factor ? constant_registers(model, compiled) : std::vector<double>();
-  return is_factor && (std::fabs(values[static_cast<std::size_t>(made.first)] / kTurn - 1.0) < kClose ||
-                       std::fabs(values[static_cast<std::size_t>(made.second)] / kTurn - 1.0) < kClose);
+  return is_factor &&
+         (std::fabs(values[static_cast<std::size_t>(made.first)] / kRadiansInTurn - 1.0) < kClose ||
+          std::fabs(values[static_cast<std::size_t>(made.second)] / kRadiansInTurn - 1.0) < kClose);
 }
 
 /// Where the place shows what was meant, a further remark.

@@ -289,8 +289,9 @@ std::optional<Wraps::Decided> Wraps::compared(int condition, int base, const Par
     return std::nullopt;
   }
   Decided all;
-  for (const auto& [where, shift] : *parts) {
-    const double at_base = *limit - shift.by;
+  for (const auto& each : *parts) {
+    const Part& where = each.first;
+    const double at_base = *limit - each.second.by;
     const auto add = [&](double low, double high, bool holds) {
       const Span cut{std::max(where.of_base.low, low), std::min(where.of_base.high, high)};
       if (cut.low <= cut.high) {

@@ -231,9 +231,10 @@ std::optional<std::vector<Turns::Truth>> Turns::truth_of_comparison(int conditio
     return std::nullopt;
   }
   std::vector<Truth> all;
-  for (const auto& [where, shift] : *parts) {
+  for (const Piece& piece : *parts) {
+    const Part& where = piece.part;
     // Sums and conversions in single precision may be to the other side of a limit next to it.
-    const double at_base = *limit - shift.by;
+    const double at_base = *limit - piece.shift.by;
     const auto add = [&](double low, double high, bool holds) {
       const Range cut{std::max(where.of_base.low, low), std::min(where.of_base.high, high)};
       if (cut.low <= cut.high) {

@@ -13,6 +13,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/loop_stability.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
+#include "certificates/model/model_lock.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/linear_loop_table.hpp"
@@ -157,6 +158,17 @@ std::string attack_text(const ModelSets& sets, const Model& model, const ModelAs
       reached / proof.assumed->long_run);
 }
 
+/// Why the most that is tolerated is less than what is assumed and proved.
+std::string without_lock(const ModelSets& sets) {
+  const std::optional<ProvedSet>& set = sets.assumed;
+  return set && set->is_proved() && !names_lock(set->frequency_error, set->half_distance)
+             ? fmt::format(
+                   "A set is proved for the assumed noise and slew, but no sentence says that the tracker "
+                   "tolerates them. {} (`docs/model-proof.md`, section 18).\n\n",
+                   lock_objection(set->frequency_error, set->half_distance))
+             : std::string();
+}
+
 }  // namespace
 
 std::string gain_limits_table(const ProvedSet* noise, const ProvedSet* slew, const ProvedSet& starts,
@@ -211,6 +223,7 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
   }
   text += gain_limits_table(sets.noise ? &*sets.noise : nullptr, sets.slew ? &*sets.slew : nullptr,
                             sets.starts, units);
+  text += without_lock(sets);
   if (proof.gains) {
     text +=
         linear_loop_table(model::linear_loop(proof.gains->network()), proof.gains->samples(),

@@ -42,10 +42,11 @@ class GainSets {
     add_starts(*sets.assumed);
     add_reach(sets.starts, {});
     if (question_->largest_noise) {
-      sets.noise = largest(kLargestNoise, question_->tracker.amplitude.lower(), &LoopDisturbance::noise);
+      sets.noise = largest(kLargestNoise, question_->tracker.amplitude.lower(), &LoopDisturbance::noise,
+                           question_->noise);
     }
     if (question_->largest_slew) {
-      sets.slew = largest(kLargestSlew, rigor::pi().lower(), &LoopDisturbance::slew);
+      sets.slew = largest(kLargestSlew, rigor::pi().lower(), &LoopDisturbance::slew, question_->slew);
     }
     if (question_->reach_of_assumed) {
       const LoopDisturbance assumed{question_->noise, question_->slew, {}};
@@ -93,15 +94,19 @@ class GainSets {
     return set;
   }
 
-  [[nodiscard]] ProvedSet largest(const char* name, double most, double LoopDisturbance::*size) const {
-    const double found = largest_with(most, [&](double value) {
+  /// At least the assumed one, where that is a lock: a search ends a little below what it finds.
+  [[nodiscard]] ProvedSet largest(const char* name, double most, double LoopDisturbance::*size,
+                                  double assumed) const {
+    const auto alone = [&](double value) {
       LoopDisturbance disturbance;
       disturbance.*size = value;
-      return is_lock(tried(disturbance));
-    });
-    LoopDisturbance disturbance;
-    disturbance.*size = found;
-    ProvedSet set = set_of(name, disturbance);
+      return disturbance;
+    };
+    double found = largest_with(most, [&](double value) { return is_lock(tried(alone(value))); });
+    if (assumed > found && is_lock(gains_->bounds(alone(assumed)))) {
+      found = assumed;
+    }
+    ProvedSet set = set_of(name, alone(found));
     if (!(found > 0.0) && question_->deadline.is_over()) {
       set.tubes.is_complete = false;
       set.tubes.reasons = {kTimeLimit};

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <any>
 #include <regex>
 #include <string>
 
@@ -35,6 +36,19 @@ TEST_CASE("a loop that is certified by gains: what each cause contributes, and a
   CHECK(text.find("damping 0.947") != std::string::npos);  // of ln z, z = 0.97 +- 0.01i
   CHECK(text.find("nan") == std::string::npos);
   CHECK(text.find("tube") == std::string::npos);
+}
+
+TEST_CASE("a proved set that may reach a false lock is no tolerated noise: the document says why") {
+  Certificate certificate = test::two_channel_certificate();
+  CHECK(model_sections(certificate, {}).find("false lock") == std::string::npos);
+  auto& sets = std::any_cast<ModelSets&>(certificate.particulars);
+  REQUIRE(sets.assumed.has_value());
+  sets.assumed->half_distance = 0.001;
+  const std::string text = model_sections(certificate, {});
+  CHECK(text.find("but no sentence says that the tracker tolerates them. Its frequency error may reach") !=
+        std::string::npos);
+  CHECK(text.find("from 0.001 rad/sample on it may be nearer to a false lock: no lock can be named "
+                  "(`docs/model-proof.md`, section 18).") != std::string::npos);
 }
 
 TEST_CASE("an unstable loop is refuted, with what would make it stable") {

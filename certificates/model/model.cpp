@@ -13,6 +13,7 @@
 
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/model/language/extended_kalman_filter.hpp"
+#include "certificates/model/language/written_out.hpp"
 
 namespace veritrack::certificates {
 
@@ -211,7 +212,9 @@ void require_units(const ModelTable& table, const std::vector<std::string>& stat
 
 Recipe recipe_of(const ModelTable& table) {
   if (!table.ekf) {
-    return {table.step.position, language::parse_definitions(table.step), std::nullopt, {}};
+    std::vector<Definition> step = language::parse_definitions(table.step);
+    language::leave_out_outer_wraps(step, texts(table.angles));
+    return {table.step.position, std::move(step), std::nullopt, {}};
   }
   const ModelEkfTable& ekf = *table.ekf;
   language::FilterModel filter;

@@ -73,6 +73,25 @@ Position position_of(const CompiledProgram& compiled, int place, Position otherw
              : otherwise;
 }
 
+/// Where the place shows what was meant, a further remark.
+std::string advice_on_turns(const CompiledProgram& compiled, int place, const std::string& angle) {
+  const int number = place - compiled.program.inputs();
+  if (number < 0) {
+    return "";
+  }
+  const trackers::Instruction& made = compiled.program.instructions()[static_cast<std::size_t>(number)];
+  if (angle.empty()) {
+    return "";
+  }
+  if (what_is_wrapped(compiled.program, made)) {
+    return fmt::format("; wrap(...) as the whole next value of an angle is allowed where no line uses {}'",
+                       angle);
+  }
+  return made.operation == Operation::choose
+             ? fmt::format("; leave the wrap out: {} is an angle, known modulo 2*pi", angle)
+             : "";
+}
+
 }  // namespace
 
 void require_whole_turns(const Model& model, const ModelTable& table, const std::vector<SourceText>& signal) {
@@ -93,13 +112,15 @@ void require_whole_turns(const Model& model, const ModelTable& table, const std:
     throw LanguageError(
         position_of(compiled, objection->place,
                     is_frequency ? table.frequency.position : table.step.position),
-        fmt::format("{} {}, in {}; allowed: angles with whole factors, inside of sin, cos and tan, and in "
-                    "sums in the next value of an angle",
-                    value,
-                    !is_result ? "depends on a part of a turn of an angle"
-                    : is_angle ? "does not turn once when the angle turns once"
-                               : "is not the same after a whole turn of an angle",
-                    formula));
+        fmt::format(
+            "{} {}, in {}; allowed: angles with whole factors, inside of sin, cos and tan, and in "
+            "sums in the next value of an angle{}",
+            value,
+            !is_result ? "depends on a part of a turn of an angle"
+            : is_angle ? "does not turn once when the angle turns once"
+                       : "is not the same after a whole turn of an angle",
+            formula,
+            advice_on_turns(compiled, objection->place, is_angle ? model.states[state] : std::string())));
   }
   if (!model::is_periodic(model.signal, constants)) {
     throw LanguageError(signal.front().position,
@@ -136,6 +157,11 @@ std::vector<std::string> objections_to_operations(const Model& model) {
         objections.push_back("tan(" + operand(made.first) + ")" + at + " may become infinite");
         break;
       case Operation::atan2:
+        if (const auto wrapped = what_is_wrapped(model.step.program, made)) {
+          objections.push_back(fmt::format(
+              "wrap({}){} may reach its jump, where what it wraps is half a turn", operand(*wrapped), at));
+          break;
+        }
         objections.push_back(
             fmt::format("atan2({}, {}){} may reach its jump, where the second argument is "
                         "negative or 0 and the first is 0",

@@ -30,6 +30,8 @@ class Writer {
     }
   }
 
+  /// For messages: atan2(sin(x), cos(x)) as wrap(x).
+  void show_wraps() { shows_wraps_ = true; }
   [[nodiscard]] bool has_name(int place) const { return !names_[static_cast<std::size_t>(place)].empty(); }
   void set_name(int place, const std::string& name) { names_[static_cast<std::size_t>(place)] = name; }
 
@@ -98,6 +100,9 @@ class Writer {
       case Operation::atan:
         return standard("atan");
       case Operation::atan2:
+        if (const auto wrapped = what_is_wrapped(*program_, made); wrapped && shows_wraps_) {
+          return fmt::format("wrap({})", operand(*wrapped, of_sum));
+        }
         return fmt::format("{}atan2({}, {})", syntax_->function_prefix, operand(made.first, of_sum),
                            operand(made.second, of_sum));
       case Operation::minimum:
@@ -146,6 +151,7 @@ class Writer {
   const StraightLineProgram* program_;
   const FormulaSyntax* syntax_;
   std::vector<std::string> names_;
+  bool shows_wraps_ = false;
 };
 
 /// The number of times that each register is a result, or an operand of a register that the results depend
@@ -170,6 +176,22 @@ std::vector<int> uses(const StraightLineProgram& program) {
 }
 
 }  // namespace
+
+std::optional<int> what_is_wrapped(const StraightLineProgram& program, const Instruction& made) {
+  const auto argument = [&](int place, Operation operation) -> std::optional<int> {
+    const int number = place - program.inputs();
+    if (number < 0) {
+      return std::nullopt;
+    }
+    const Instruction& operand = program.instructions()[static_cast<std::size_t>(number)];
+    return operand.operation == operation ? std::optional(operand.first) : std::nullopt;
+  };
+  if (made.operation != Operation::atan2) {
+    return std::nullopt;
+  }
+  const std::optional<int> sine = argument(made.first, Operation::sin);
+  return sine && sine == argument(made.second, Operation::cos) ? sine : std::nullopt;
+}
 
 std::vector<Assignment> assignments(const StraightLineProgram& program,
                                     const std::vector<std::string>& inputs,
@@ -223,6 +245,7 @@ std::string formula_of(const StraightLineProgram& program, const std::vector<std
       writer.set_name(named, name);
     }
   }
+  writer.show_wraps();
   return writer.formula(place).formula;
 }
 

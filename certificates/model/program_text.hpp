@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +33,11 @@ struct Assignment {
                                                   const std::vector<std::string>& results,
                                                   std::string_view prefix, const FormulaSyntax& syntax);
 
-/// The formula of a register, in terms of inputs and named registers.
+/// The x of atan2(sin(x), cos(x)), as wrap(x) is written out.
+[[nodiscard]] std::optional<int> what_is_wrapped(const trackers::StraightLineProgram& program,
+                                                 const trackers::Instruction& made);
+
+/// The formula of a register, in terms of inputs and named registers; with wrap(x), for messages.
 [[nodiscard]] std::string formula_of(const trackers::StraightLineProgram& program,
                                      const std::vector<std::string>& inputs,
                                      const std::map<int, std::string>& names, int place);

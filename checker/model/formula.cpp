@@ -346,6 +346,28 @@ bool is_limit(const FormulaLine& line) {
   return last.kind == Kind::function && last.text == "stays_within";
 }
 
+void leave_out_outer_wraps(std::vector<FormulaLine>& lines, const std::vector<std::string>& angles) {
+  std::set<std::string> used;
+  for (const FormulaLine& line : lines) {
+    for (const FormulaStep& step : line.value) {
+      if (step.kind == Kind::name) {
+        used.insert(step.text);
+      }
+    }
+  }
+  for (FormulaLine& line : lines) {
+    const bool is_angle = std::any_of(angles.begin(), angles.end(),
+                                      [&](const std::string& angle) { return line.name == angle + '\''; });
+    const auto is_wrapped = [&] {
+      const FormulaStep& last = line.value.back();
+      return last.kind == Kind::function && last.text == "wrap" && last.count == 1;
+    };
+    while (is_angle && !used.contains(line.name) && !line.value.empty() && is_wrapped()) {
+      line.value.pop_back();
+    }
+  }
+}
+
 const FormulaLine* unused_line(const std::vector<FormulaLine>& ordered,
                                const std::vector<std::string>& results) {
   std::set<std::string> needed(results.begin(), results.end());

@@ -50,6 +50,10 @@ std::vector<FormulaLine> in_order_of_need(const std::vector<FormulaLine>& lines)
 /// `name = stays_within(x, low, high)`: has to be shown, whether or not anything needs the name.
 bool is_limit(const FormulaLine& line);
 
+/// state' = wrap(formula) becomes state' = formula, where the state is one of the angles, which are known
+/// modulo 2 pi only, and no formula uses state'.
+void leave_out_outer_wraps(std::vector<FormulaLine>& lines, const std::vector<std::string>& angles);
+
 /// A line, not itself a limit, that neither one of `results` nor a limit needs, or nullptr. The lines are in
 /// order.
 const FormulaLine* unused_line(const std::vector<FormulaLine>& ordered,

@@ -166,11 +166,14 @@ void ModelRecursion::read_parameters(const Tree& parameters) {
 }
 
 void ModelRecursion::read_lines_of(const std::string& text, const std::vector<std::string>& inputs,
-                                   const std::vector<std::string>& states) {
+                                   const std::vector<std::string>& states,
+                                   const std::vector<std::string>& angles) {
   Slots variables = numbered(inputs);
   std::for_each(inputs.begin(), inputs.end(), require_free);
   int next = static_cast<int>(inputs.size());
-  const std::vector<FormulaLine> ordered = in_order_of_need(read_lines(text));
+  std::vector<FormulaLine> lines = read_lines(text);
+  leave_out_outer_wraps(lines, angles);
+  const std::vector<FormulaLine> ordered = in_order_of_need(lines);
   for (const FormulaLine& line : ordered) {
     require_free(line.name);
     lines_.push_back(looked_up(line.value, variables));
@@ -223,7 +226,7 @@ void ModelRecursion::read_filter(const Tree& filter) {
   if (filtered_ == 0) {
     throw FormulaError("a filter without states");
   }
-  read_lines_of(filter.at("predict").text(), estimated, estimated);
+  read_lines_of(filter.at("predict").text(), estimated, estimated, {});
   for (const Tree& formula : filter.at("measure").elements()) {
     measure_.push_back(looked_up_text(formula, estimated));
   }
@@ -259,18 +262,18 @@ ModelRecursion::ModelRecursion(const Tree& model) : sample_names_(texts_of(model
     throw FormulaError("one sample or two are needed");
   }
   read_parameters(model.at("parameters"));
+  const std::vector<std::string> angles = texts_of(model.at("angles"));
   if (const Tree* filter = model.find("ekf")) {
     read_filter(*filter);
   } else {
     state_names_ = texts_of(model.at("states"));
     std::vector<std::string> inputs = state_names_;
     inputs.insert(inputs.end(), sample_names_.begin(), sample_names_.end());
-    read_lines_of(model.at("step").text(), inputs, state_names_);
+    read_lines_of(model.at("step").text(), inputs, state_names_, angles);
   }
   if (state_names_.empty()) {
     throw FormulaError("a tracker without states");
   }
-  const std::vector<std::string> angles = texts_of(model.at("angles"));
   for (const std::string& state : state_names_) {
     is_angle_.push_back(std::find(angles.begin(), angles.end(), state) != angles.end());
   }

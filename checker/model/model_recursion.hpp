@@ -77,7 +77,7 @@ class ModelRecursion {
 
   void read_parameters(const Tree& parameters);
   void read_lines_of(const std::string& text, const std::vector<std::string>& inputs,
-                     const std::vector<std::string>& states);
+                     const std::vector<std::string>& states, const std::vector<std::string>& angles);
   void read_filter(const Tree& filter);
   /// The formula with its numbers and names looked up; numbers become constants. Throws FormulaError.
   [[nodiscard]] Formula looked_up(Formula formula, const Slots& variables);

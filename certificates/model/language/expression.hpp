@@ -32,6 +32,7 @@ struct Expression {
   int exponent = 0;  ///< of power
   int depth = 0;     ///< operations one inside the other, this one included
   std::vector<Expression> operands;
+  bool is_wrap = false;  ///< atan2 of the sine and the cosine of one formula: it was written as wrap(...)
 };
 
 /// One line of a step: `name = value`, or `state' = value` for a next value.

@@ -67,6 +67,7 @@ std::optional<Expression> written_out(std::string_view name, Position position,
                   both(Kind::quotient, number("2"), both(Kind::sum, growth, number("1"))));
   } else if (name == "wrap") {
     result = call("atan2", {call("sin", {arguments[0]}), call("cos", {arguments[0]})});
+    result->is_wrap = true;
   }
   if (result && length_of(*result) > kLongest) {
     throw LanguageError(
@@ -74,6 +75,25 @@ std::optional<Expression> written_out(std::string_view name, Position position,
         fmt::format("{} of a formula that is too long; allowed: {} operations and names", name, kLongest));
   }
   return result;
+}
+
+void leave_out_outer_wraps(std::vector<Definition>& step, const std::vector<std::string>& angles) {
+  const auto is_used = [&](const std::string& name) {
+    return std::any_of(step.begin(), step.end(), [&](const Definition& definition) {
+      bool found = false;
+      for_each_leaf(definition.value, [&](const Expression& leaf) { found = found || leaf.text == name; });
+      return found;
+    });
+  };
+  for (Definition& definition : step) {
+    const bool is_next_of_angle = std::any_of(angles.begin(), angles.end(), [&](const std::string& angle) {
+      return definition.name == angle + "'";
+    });
+    while (is_next_of_angle && definition.value.is_wrap && !is_used(definition.name)) {
+      Expression inside = definition.value.operands.front().operands.front();
+      definition.value = std::move(inside);
+    }
+  }
 }
 
 }  // namespace veritrack::certificates::language

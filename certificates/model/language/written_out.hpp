@@ -23,4 +23,8 @@ namespace veritrack::certificates::language {
 [[nodiscard]] std::optional<Expression> written_out(std::string_view name, Position position,
                                                     const std::vector<Expression>& arguments);
 
+/// theta' = wrap(formula) becomes theta' = formula, where theta is one of the angles, which are known up to
+/// whole turns only, and no formula uses theta'.
+void leave_out_outer_wraps(std::vector<Definition>& step, const std::vector<std::string>& angles);
+
 }  // namespace veritrack::certificates::language

@@ -47,6 +47,28 @@ TEST_CASE("what depends on whole turns of an angle is refused where it stands") 
   CHECK_MESSAGE(contains(frequency, "the frequency is not the same after a whole turn"), frequency);
 }
 
+TEST_CASE("a wrap of the next value of an angle is as if it were not there, or the message shows it") {
+  const std::string next = "theta' = theta + w + kp*e";
+  const std::string wrapped = loop_with(next, "theta' = wrap(theta + w + kp*e)");
+  CHECK(refusal_of(wrapped) == "no error");
+  const auto instructions = [](const std::string& text) {
+    const Design design = read_design(text, "loop.toml");
+    const ModelTables& tables = model_tables(design);
+    return make_model(tables.model, tables.assume.signal).step.program.instructions();
+  };
+  {
+    const rigor::UpwardRounding upward;
+    CHECK(instructions(wrapped) == instructions(test::kLoopText));
+  }
+  const std::string used =
+      refusal_of(loop_with(next, "theta' = wrap(theta + w + kp*e)\nguard = stays_within(theta' - w, -9, 9)"));
+  CHECK_MESSAGE(contains(used, "turns once, in wrap(theta + w + kp*e); allowed:"), used);
+  CHECK_MESSAGE(contains(used, "allowed where no line uses theta'"), used);
+  const std::string by_if = refusal_of(
+      loop_with(next, "t = theta + w + kp*e\ntheta' = if(t > pi, t - 2*pi, if(t < -pi, t + 2*pi, t))"));
+  CHECK_MESSAGE(contains(by_if, "; leave the wrap out: theta is an angle, known modulo 2*pi"), by_if);
+}
+
 TEST_CASE("a signal that is not known to have the period of the phase is refused") {
   const auto with_signal = [](const std::string& signal) {
     return refusal_of(loop_with("noise = 0.02", "noise = 0.02\nsignal = '" + signal + "'"));
@@ -90,6 +112,13 @@ TEST_CASE("every operation that may be undefined has words with its formula and 
   CHECK(has("what the root is taken of, w (line 13), may be 0 or less"));
   CHECK(has("what the logarithm is taken of, 4 + y (line 13), may be 0 or less"));
   CHECK(has("the argument of acos, y/2 (line 13), may reach 1 or -1"));
+
+  const Design wrapped = read_design(loop_with("-2*y*sin(theta + w)", "-2*wrap(y)*sin(theta + w)"), "l.toml");
+  const std::vector<std::string> of_wrap =
+      objections_to_operations(make_model(model_tables(wrapped).model, model_tables(wrapped).assume.signal));
+  CHECK(std::find(of_wrap.begin(), of_wrap.end(),
+                  "wrap(y) (line 12) may reach its jump, where what it wraps is half a turn") !=
+        of_wrap.end());
 }
 
 }  // namespace

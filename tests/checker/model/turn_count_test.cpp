@@ -59,6 +59,24 @@ TEST_CASE("what depends on whole turns, and what does not") {
   CHECK(objection(model).empty());
 }
 
+TEST_CASE("a wrap around the whole next value of an angle is left out, unless a formula uses that value") {
+  CHECK(objection_to_next("wrap(theta + w)", "w + k*y*sin(theta)").empty());
+  CHECK(objection_to_next("wrap(wrap(theta + w))", "w").empty());
+  const std::string refused = "the next value of theta is not known to turn as the angle does";
+  CHECK(objection_to_next("wrap(theta + w) + 0", "w") == refused);
+  CHECK(objection_to_next("theta + wrap(theta)", "w").empty());  // wrap has the period of a turn
+  CHECK(objection_to_next("wrap(2*theta)", "w") == refused);
+  CHECK(objection_to_next("atan2(sin(theta), cos(theta))", "w") == refused);
+  // theta' - theta jumps by a turn where the program wraps.
+  CHECK(objection_to_next("wrap(theta + w)", "theta' - theta") == refused);
+  // w is no angle: its wrap is a function like any other.
+  const ModelRecursion wrapped(read_json(loop_with("theta' = theta + w\nw' = wrap(w)").dump()));
+  const std::vector<Ball> next = wrapped.next<Ball>({Ball(0.0), Ball(4.0)}, {Ball(0.0)});
+  CHECK(certainly_less(next[1], zero));
+  const ModelRecursion angle(read_json(loop_with("theta' = wrap(theta + w)\nw' = w").dump()));
+  CHECK(certainly_less(Ball(3.5), angle.next<Ball>({Ball(0.0), Ball(4.0)}, {Ball(0.0)})[0]));
+}
+
 TEST_CASE("a filter that estimates a phase") {
   Json model{{"samples", {"y"}},
              {"parameters", Json::array()},

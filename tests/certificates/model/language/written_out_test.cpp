@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/language/compiler.hpp"
@@ -61,6 +62,19 @@ TEST_CASE("another number of arguments is refused, and a formula that grows with
     nested = "wrap(" + nested + ")";
   }
   CHECK(message_of(nested).find("too long") != std::string::npos);
+}
+
+TEST_CASE("a wrap around the whole next value of an angle is left out, unless a formula uses that value") {
+  const auto is_wrapped = [](const std::string& step) {
+    std::vector<Definition> lines = parse_definitions({step, {1, 1}});
+    leave_out_outer_wraps(lines, {"x"});
+    return lines.front().value.is_wrap;
+  };
+  CHECK_FALSE(is_wrapped("x' = wrap(x + y)\ny' = y"));
+  CHECK_FALSE(is_wrapped("x' = wrap(wrap(x))\ny' = y"));
+  CHECK(is_wrapped("x' = wrap(x)\ny' = y + x'"));
+  CHECK(is_wrapped("y' = wrap(y)\nx' = x"));
+  CHECK(is_wrapped("x = wrap(y)\nx' = x"));
 }
 
 }  // namespace

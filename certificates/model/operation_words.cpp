@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
+#include <span>
 
 #include "analysis/model/tube/angle_check.hpp"
 #include "certificates/design/input_error.hpp"
@@ -73,13 +76,39 @@ Position position_of(const CompiledProgram& compiled, int place, Position otherw
              : otherwise;
 }
 
+/// The values of registers that depend on constants alone, otherwise NaN.
+std::vector<double> constant_registers(const Model& model, const CompiledProgram& compiled) {
+  std::vector<double> inputs(static_cast<std::size_t>(compiled.program.inputs()), NAN);
+  for (std::size_t i = 0; i < model.constants.size(); ++i) {
+    inputs[i] = model.constants[i].nearest;
+  }
+  std::vector<double> registers;
+  std::vector<double> results(compiled.program.results().size());
+  compiled.program.run<double>(std::span<const double>(inputs), registers, std::span<double>(results));
+  return registers;
+}
+
+/// Whether it converts turns to rad, or rad to turns.
+bool converts_turns(const Model& model, const CompiledProgram& compiled, const trackers::Instruction& made) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  constexpr double kClose = 1e-9;
+  const bool is_factor = made.operation == Operation::multiply || made.operation == Operation::divide;
+  const std::vector<double> values = is_factor ? constant_registers(model, compiled) : std::vector<double>();
+  return is_factor && (std::fabs(values[static_cast<std::size_t>(made.first)] / kTurn - 1.0) < kClose ||
+                       std::fabs(values[static_cast<std::size_t>(made.second)] / kTurn - 1.0) < kClose);
+}
+
 /// Where the place shows what was meant, a further remark.
-std::string advice_on_turns(const CompiledProgram& compiled, int place, const std::string& angle) {
+std::string advice_on_turns(const Model& model, const CompiledProgram& compiled, int place,
+                            const std::string& angle) {
   const int number = place - compiled.program.inputs();
   if (number < 0) {
     return "";
   }
   const trackers::Instruction& made = compiled.program.instructions()[static_cast<std::size_t>(number)];
+  if (converts_turns(model, compiled, made)) {
+    return "; an angle is in rad: for a state in turns use a state that is 2*pi times it";
+  }
   if (angle.empty()) {
     return "";
   }
@@ -112,15 +141,15 @@ void require_whole_turns(const Model& model, const ModelTable& table, const std:
     throw LanguageError(
         position_of(compiled, objection->place,
                     is_frequency ? table.frequency.position : table.step.position),
-        fmt::format(
-            "{} {}, in {}; allowed: angles with whole factors, inside of sin, cos and tan, and in "
-            "sums in the next value of an angle{}",
-            value,
-            !is_result ? "depends on a part of a turn of an angle"
-            : is_angle ? "does not turn once when the angle turns once"
-                       : "is not the same after a whole turn of an angle",
-            formula,
-            advice_on_turns(compiled, objection->place, is_angle ? model.states[state] : std::string())));
+        fmt::format("{} {}, in {}; allowed: angles with whole factors, inside of sin, cos and tan, and in "
+                    "sums in the next value of an angle{}",
+                    value,
+                    !is_result ? "depends on a part of a turn of an angle"
+                    : is_angle ? "does not turn once when the angle turns once"
+                               : "is not the same after a whole turn of an angle",
+                    formula,
+                    advice_on_turns(model, compiled, objection->place,
+                                    is_angle ? model.states[state] : std::string())));
   }
   if (!model::is_periodic(model.signal, constants)) {
     throw LanguageError(signal.front().position,

@@ -188,7 +188,8 @@ FrameLine FrameRules::scaled(const FrameLine& line, const Interval& factor, std:
   FrameLine result = line;
   if (line.turns != 0 || line.is_modular) {
     if (!exact || std::nearbyint(*exact) != *exact) {
-      throw NoFrame("a part of an angle");
+      throw NoFrame(
+          "a part of an angle (an angle is in rad: for a state in turns use a state that is 2*pi times it)");
     }
     result.turns = line.turns * static_cast<int>(*exact);
   }

@@ -69,6 +69,14 @@ TEST_CASE("a wrap of the next value of an angle is as if it were not there, or t
   CHECK_MESSAGE(contains(by_if, "; leave the wrap out: theta is an angle, known modulo 2*pi"), by_if);
 }
 
+TEST_CASE("an angle in turns is refused with what helps") {
+  const std::string turns = refusal_of(loop_with("sin(theta + w)", "sin(2*pi*theta + w)"));
+  CHECK_MESSAGE(contains(turns, "depends on a part of a turn of an angle, in 2*pi*theta; allowed:"), turns);
+  CHECK_MESSAGE(
+      contains(turns, "; an angle is in rad: for a state in turns use a state that is 2*pi times it"), turns);
+  CHECK_FALSE(contains(refusal_of(loop_with("sin(theta + w)", "sin(0.5*theta + w)")), "in turns"));
+}
+
 TEST_CASE("a signal that is not known to have the period of the phase is refused") {
   const auto with_signal = [](const std::string& signal) {
     return refusal_of(loop_with("noise = 0.02", "noise = 0.02\nsignal = '" + signal + "'"));

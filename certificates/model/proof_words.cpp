@@ -48,7 +48,8 @@ std::string objection_words(const ProofObjection& objection, const std::optional
       break;
     case ProofObjection::Kind::negative_frequencies:
       return "frequencies below 0 are certified by gains only (docs/model.md), and this loop is not: " +
-             (no_gains ? gains_words(*no_gains) : "");
+             (no_gains ? gains_words(*no_gains) : "") +
+             (objection.advice.empty() ? "" : ". But " + objection.advice);
   }
   return "the assumed frequencies are no band of some width from 0 to pi rad/sample";
 }

@@ -5,11 +5,23 @@
 
 #include "analysis/model/question/gain_sets.hpp"
 #include "analysis/model/question/phase_sets.hpp"
+#include "analysis/model/steady_state/neutral_turn.hpp"
+#include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/small_matrix.hpp"
 
 namespace veritrack::model {
 
 namespace {
+
+/// Where a phase is described twice: what to write instead.
+std::string advice_on_turns(const SetQuestion& question) {
+  const rigor::NearestRounding nearest;
+  const std::vector<double> start = question.tone.start(question.whole_band.upper());
+  const Eigen::VectorXd near =
+      Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()));
+  const auto turn = find_neutral_turn(question.tone.step, near, near.cwiseAbs());
+  return turn ? words_of(*turn, question.tone.names) : std::string();
+}
 
 /// Where gains are not enough: why there are no tubes, either.
 std::optional<ProofObjection> objection_to_tubes(const SetQuestion& question) {
@@ -21,7 +33,7 @@ std::optional<ProofObjection> objection_to_tubes(const SetQuestion& question) {
   }
   using Kind = ProofObjection::Kind;
   if (question.whole_band.lower() < 0.0) {
-    return ProofObjection{Kind::negative_frequencies};
+    return ProofObjection{Kind::negative_frequencies, 0, 0, advice_on_turns(question)};
   }
   return is_too_large ? ProofObjection{Kind::too_many_states, states, kMostStatesInTubes}
                       : ProofObjection{Kind::no_band};

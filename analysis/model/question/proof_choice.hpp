@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "analysis/model/question/no_gains.hpp"
 #include "analysis/model/question/proved_sets.hpp"
@@ -22,6 +23,7 @@ struct ProofObjection {
   };
   Kind kind = Kind::no_band;
   int states = 0, most_states = 0;  ///< where these are too many
+  std::string advice = {};          ///< on how to write the recursion; or empty
 };
 
 /// What gains prove, which are tried first.

@@ -50,10 +50,11 @@ bool is_neutral(const StepMap& step, const Places& places, const VectorXd& size,
   for (std::size_t k = 0; k < places.states.size(); ++k) {
     const VectorXd& state = places.states[k];
     const VectorXd before = turned(state, turn, kTurn);
-    const VectorXd apart =
-        step.next(before, places.samples[k]) - turned(step.next(state, places.samples[k]), turn, kTurn);
+    const VectorXd after = turned(step.next(state, places.samples[k]), turn, kTurn);
+    const VectorXd apart = step.next(before, places.samples[k]) - after;
+    const VectorXd scale = size + after.cwiseAbs();
     const double frequency = step.frequency(state);
-    if (!(apart.cwiseQuotient(size).cwiseAbs().maxCoeff() < kEqual) ||
+    if (!(apart.cwiseQuotient(scale).cwiseAbs().maxCoeff() < kEqual) ||
         !(std::fabs(step.frequency(before) - frequency) < kEqual * (1.0 + std::fabs(frequency)))) {
       return false;
     }
@@ -79,6 +80,19 @@ std::optional<NeutralTurn> find_neutral_turn(const StepMap& step, const VectorXd
     }
   }
   return std::nullopt;
+}
+
+std::string words_of(const NeutralTurn& turn, const std::vector<std::string>& names) {
+  const auto name = [&](std::size_t state) {
+    return state < names.size() ? names[state] : "state " + std::to_string(state);
+  };
+  const std::string angle = name(turn.angle);
+  const std::string c = name(turn.cosine);
+  const std::string s = name(turn.sine);
+  return angle + ", " + c + " and " + s + " may turn together, and the tracker does not notice. Write " + c +
+         "*cos(" + angle + ") + " + s + "*sin(" + angle + ") and " + s + "*cos(" + angle + ") - " + c +
+         "*sin(" + angle +
+         ") as two states in place of these three (docs/model.md, \"When something is not proved\")";
 }
 
 }  // namespace veritrack::model

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "analysis/model/steady_state/step_derivatives.hpp"
 
@@ -22,5 +24,8 @@ struct NeutralTurn {
 /// its entries, which say how far to try. A guess, from four states.
 [[nodiscard]] std::optional<NeutralTurn> find_neutral_turn(const StepMap& step, const Eigen::VectorXd& near,
                                                            const Eigen::VectorXd& size);
+
+/// What to write in place of the three states. `names`: of all states.
+[[nodiscard]] std::string words_of(const NeutralTurn& turn, const std::vector<std::string>& names);
 
 }  // namespace veritrack::model

@@ -82,18 +82,6 @@ std::string lock_of(const SteadyState& steady) {
                                          : "it has locked to something else";
 }
 
-/// The states to write in place of those that turn together without any effect.
-std::string without_turn(const SteadyState& steady) {
-  const auto name = [&](std::size_t state) { return name_of(steady, static_cast<Eigen::Index>(state)); };
-  const std::string angle = name(steady.neutral->angle);
-  const std::string c = name(steady.neutral->cosine);
-  const std::string s = name(steady.neutral->sine);
-  return ": " + angle + ", " + c + " and " + s +
-         " may turn together, and the tracker does not notice. Write " + c + "*cos(" + angle + ") + " + s +
-         "*sin(" + angle + ") and " + s + "*cos(" + angle + ") - " + c + "*sin(" + angle +
-         ") as two states in place of these three (docs/model.md, \"When something is not proved\")";
-}
-
 /// For errors that do not grow, but do not decay by a factor a sample either.
 std::string decay_of(const SteadyState& steady) {
   return steady.rate < 1.0 ? ", which is 1 as far as " + std::to_string(steady.samples) +
@@ -125,7 +113,7 @@ std::string reason_of(const SteadyState& steady) {
     case SteadyStateOutcome::not_exponentially_stable:
       return "not exponentially stable: each sample multiplies errors by " + digits(steady.rate, 7) +
              at_frequency(steady) +
-             (steady.neutral ? without_turn(steady)
+             (steady.neutral ? ": " + words_of(*steady.neutral, steady.names)
                              : ", in the mode " + states_in(steady) + decay_of(steady));
   }
   return "";

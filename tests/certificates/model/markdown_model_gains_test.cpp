@@ -51,6 +51,37 @@ TEST_CASE("a proved set that may reach a false lock is no tolerated noise: the d
                   "(`docs/model-proof.md`, section 18).") != std::string::npos);
 }
 
+TEST_CASE("over a band through 0, too, what describes a phase twice is named") {
+  const std::string text = R"(name = "FLL behind an oscillator"
+tracker = "model"
+[model]
+samples = ['y1', 'y2']
+parameters = { T = 1e-3, g = 40 }
+states = ['th', 'vel', 'pi_', 'pq']
+angles = ['th']
+step = '''
+i    = y1*cos(th) + y2*sin(th)
+q    = y2*cos(th) - y1*sin(th)
+vel' = vel + g*atan2(pi_*q - i*pq, pi_*i + pq*q)
+th'  = th + T*vel'
+pi_' = i
+pq'  = q
+'''
+frequency = 'vel*T'
+start = { th = 'omega', vel = 'omega/T', pi_ = 'A', pq = 0 }
+[assume]
+amplitude = 2000
+frequency = [-0.5, 0.5]
+noise = 200
+)";
+  const Certificate certificate = certify(test::loop_design(text), "fll.toml", text, {}, Extent::everything);
+  const std::string& objection = model_sets(certificate).objection;
+  CHECK_MESSAGE(objection.find("frequencies below 0 are certified by gains only") == 0, objection);
+  CHECK_MESSAGE(
+      objection.find("and pi_ may turn together, and the tracker does not notice") != std::string::npos,
+      objection);
+}
+
 TEST_CASE("an unstable loop is refuted, with what would make it stable") {
   const Certificate certificate = test::two_channel_certificate("kp = 2.1, ki = 0.03");
   const std::string text = model_sections(certificate, {});

@@ -33,6 +33,10 @@ TEST_CASE("why nothing is searched for") {
   CHECK(objection_words({Objection::negative_frequencies}, model::NoGains{Kind::bounds}) ==
         "frequencies below 0 are certified by gains only (docs/model.md), and this loop is not: the bounds "
         "of its errors do not close, even without noise");
+  CHECK(objection_words({Objection::negative_frequencies, 0, 0, "a, b and c may turn together"},
+                        model::NoGains{Kind::steady_state}) ==
+        "frequencies below 0 are certified by gains only (docs/model.md), and this loop is not: no steady "
+        "state was found from [model] start. But a, b and c may turn together");
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ TEST_CASE("the phase of a linear combiner and its weights turn together") {
   CHECK(turn->angle == 2);
   CHECK(turn->cosine == 3);
   CHECK(turn->sine == 1);
+  CHECK(words_of(*turn, {"w", "b", "ph", "a"}).find("ph, a and b may turn together") == 0);
 }
 
 TEST_CASE("a tracker that tells the weights apart has no neutral turn, nor has a phase-locked loop") {

@@ -151,7 +151,7 @@ struct Function {
 };
 
 TEST_CASE("choices that are the same functions") {
-  for (const auto& [operations, result, formula] : std::vector<Function>{
+  for (const Function& each : std::vector<Function>{
            {"r2 = fmin.f64 r0 r1\n", "r2", "min(x, y)"},
            {"r2 = fcmp.olt.f64 r0 r1\nr3 = select.f64 r2 r0 r1\n", "r3", "min(y, x)"},
            {"r2 = fcmp.uge.f64 r0 r1\nr3 = select.f64 r2 r0 r1\n", "r3", "max(x, y)"},
@@ -170,14 +170,14 @@ TEST_CASE("choices that are the same functions") {
            {"r2 = fptrunc.f32 r0\nr3 = fpext.f64 r2\nr4 = exp.f64 r3\nr5 = hypot.f64 r4 r1\n", "r5",
             "hypot(exp(y), x)"},
            {"r2 = fdiv.f64 r0 r1\nr3 = fcmp.uno.f64 r2 r2\nr4 = select.f64 r3 r1 r2\n", "r4", "y/x"}}) {
-    CAPTURE(operations);
-    CAPTURE(formula);
-    CHECK(function(operations, result, formula).objection() == "");
+    CAPTURE(each.operations);
+    CAPTURE(each.formula);
+    CHECK(function(each.operations, each.result, each.formula).objection() == "");
   }
 }
 
 TEST_CASE("choices that are other functions") {
-  for (const auto& [operations, result, formula] : std::vector<Function>{
+  for (const Function& each : std::vector<Function>{
            {"r2 = fmin.f64 r0 r1\n", "r2", "max(x, y)"},
            {"r2 = fcmp.olt.f64 r0 r1\nr3 = select.f64 r2 r1 r0\n", "r3", "min(y, x)"},
            // Strict or not, at a jump.
@@ -206,9 +206,9 @@ TEST_CASE("choices that are other functions") {
            {"r2 = sqrt.f64 r0\nr3 = fcmp.uno.f64 r2 r2\nr4 = select.f64 r3 r1 r0\n", "r4", "y"},
            {"r2 = fdiv.f64 r0 r1\nr3 = fcmp.ord.f64 r2 r2\nr4 = select.f64 r3 r0 r1\n", "r4", "y"},
            {"r2 = log.f64 r0\nr3 = fcmp.olt.f64 r2 r1\nr4 = select.f64 r3 r0 r0\n", "r4", "y"}}) {
-    CAPTURE(operations);
-    CAPTURE(formula);
-    CHECK(function(operations, result, formula).objection() != "");
+    CAPTURE(each.operations);
+    CAPTURE(each.formula);
+    CHECK(function(each.operations, each.result, each.formula).objection() != "");
   }
 }
 

@@ -47,7 +47,7 @@ TEST_CASE("a listing is read") {
 }
 
 TEST_CASE("anything else is malformed") {
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& change : std::vector<std::pair<std::string, std::string>>{
            {"listing 1", "listing 2"},
            {"file 0", "file 1"},
            {"r4 = ", "r5 = "},                                        // registers in order
@@ -98,9 +98,9 @@ TEST_CASE("anything else is malformed") {
            {"its table\n", "its table\ntrailing\n"},
            {"its table\n", "its table\nr11 = fneg.f64 r1\n"},  // behind what belongs at the end
            {"its table\n", "its \x01 table\n"}}) {
-    CAPTURE(from);
-    CAPTURE(to);
-    CHECK_THROWS_AS((void)read_listing(test::replaced(kListing, from, to)), Malformed);
+    CAPTURE(change.first);
+    CAPTURE(change.second);
+    CHECK_THROWS_AS((void)read_listing(test::replaced(kListing, change.first, change.second)), Malformed);
   }
 }
 

@@ -135,7 +135,7 @@ class Writer {
   [[nodiscard]] Formula inlined(int value) {
     inlines_ = true;
     formulas_.clear();
-    const Formula result = formula(value);
+    Formula result = formula(value);
     inlines_ = false;
     formulas_.clear();
     return result;
@@ -216,7 +216,7 @@ class Writer {
 
   [[nodiscard]] std::string free_name(const std::string& begin) {
     for (int i = 1;; ++i) {
-      const std::string name = fmt::format("{}{}", begin, i);
+      std::string name = fmt::format("{}{}", begin, i);
       if (!taken_.contains(name) && given_.insert(name).second) {
         return name;
       }
@@ -371,7 +371,7 @@ class Writer {
     }
     const std::string first = formula(comparison->first).text;
     const std::string second = formula(comparison->second).text;
-    const Formula if_less = comparison->negated ? no() : yes();
+    Formula if_less = comparison->negated ? no() : yes();
     const Formula otherwise = comparison->negated ? yes() : no();
     if (if_less.text == otherwise.text) {
       return if_less;

@@ -113,6 +113,7 @@ std::optional<TableObjection> complete_from_code(ModelTable& model,
   }
   const auto texts = [&](const std::vector<std::string>& names) {
     std::vector<SourceText> result;
+    result.reserve(names.size());
     for (const std::string& name : names) {
       result.push_back({name, position});
     }

@@ -167,7 +167,7 @@ TEST_CASE("a loop without bounds has its reason") {
   const test::Example unstable(test::phase_locked_loop(2.0));
   CHECK(no_loop_because(unstable.model, test::tone_of(unstable.tracker), false).starts_with("no basis"));
   const test::TwoChannelExample fast(test::angle_loop(0.004, 0.1));
-  CHECK(no_loop_because(fast.model, fast.tone, false, search::Deadline(0.0)).starts_with("no basis"));
+  CHECK(no_loop_because(fast.model, fast.tone, false, search::Deadline(0.0)).find("time") != std::string::npos);
   const test::TwoChannelExample slow(test::angle_loop(1e-9, 4e-5));
   const std::string reason = no_loop_because(slow.model, slow.tone, true);
   CHECK(reason.ends_with("too many with a slew"));

@@ -97,15 +97,9 @@ std::optional<RadiusBounds> spectral_radius_bounds(const std::vector<Row>& a) {
 }
 
 RadiusBounds with_room(const RadiusBounds& bounds) {
-  constexpr double kLeast = 1e-6;
-  constexpr double kLeastOfDistance = 0.01;  // to 1
-  constexpr double kMostOfDistance = 0.5;
-  const auto room = [&](double bound) {
-    const double distance = std::fabs(1.0 - bound);
-    const double wanted = std::max(kWidthsOfCrudeBounds * (bounds.upper - bounds.lower),
-                                   std::min(kLeast, kLeastOfDistance * distance));
-    return std::min(wanted, kMostOfDistance * distance);
-  };
+  constexpr double kMost = 1e-6;
+  constexpr double kOfDistance = 0.01;  // to 1
+  const auto room = [&](double bound) { return std::min(kMost, kOfDistance * std::fabs(1.0 - bound)); };
   return {bounds.lower > 1.0 ? bounds.lower - room(bounds.lower) : bounds.lower,
           bounds.upper < 1.0 ? bounds.upper + room(bounds.upper) : bounds.upper};
 }

@@ -172,6 +172,12 @@ class GainSets {
   double half_distance_;
 };
 
+/// With entries that the checker may know less exactly, where that is enough.
+std::optional<linear::RadiusBounds> radius_of(const std::vector<linear::Row>& a) {
+  const auto crude = linear::spectral_radius_bounds(linear::with_room(a));
+  return crude ? crude : linear::spectral_radius_bounds(a);
+}
+
 ProvedSets unstable(GainProof proof) {
   ProvedSets sets;
   sets.starts.tubes.name = kStarts;
@@ -287,7 +293,7 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, NoGains* r
     const bool is_constant =
         !found->network.has_ripples && !found->network.may_rest_at_kink && !question.tracker.amplitude_varies;
     const std::optional<linear::RadiusBounds> radius =
-        is_constant ? linear::spectral_radius_bounds(found->network.a) : std::nullopt;
+        is_constant ? radius_of(found->network.a) : std::nullopt;
     if (radius && radius->lower > 1.0) {
       return unstable({found->steady, radius, std::nullopt, {}, std::nullopt});
     }

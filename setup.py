@@ -30,8 +30,9 @@ class CMakeBuild(build_ext):
         built = folder / "python" / "veritrack"
         target = pathlib.Path(self.build_lib, "veritrack")
         (target / "bin").mkdir(parents=True, exist_ok=True)
-        for name in ("veritrack-engine", "veritrack-verify"):
-            shutil.copy(built / "bin" / name, target / "bin")
+        for name in ("veritrack-engine", "veritrack-verify", "veritrack-lift"):
+            if (built / "bin" / name).exists() or name != "veritrack-lift":  # which needs LLVM
+                shutil.copy(built / "bin" / name, target / "bin")
         shutil.copy(built / pathlib.Path(self.get_ext_filename("_trackers")).name, target)
 
 

@@ -20,11 +20,6 @@ Ball size_of(const Ball& x) {
   return abs(x).upper();
 }
 
-/// Half a unit in the last place of 1.
-Ball roundoff(ListedFormat format) {
-  return Ball(format.bits == 32 ? 0x1p-24 : 0x1p-53);
-}
-
 /// The value when its exact counterpart is off by `error` before it is rounded `units` times.
 Register stored(ListedFormat format, const Ball& exact, const Ball& error, const Ball& units = one) {
   const Ball most = (size_of(exact) + error).upper();
@@ -33,7 +28,7 @@ Register stored(ListedFormat format, const Ball& exact, const Ball& error, const
   if (!certainly_less(most, limit)) {
     return {};
   }
-  return {exact, (error + units * roundoff(format) * most + flushed).upper()};
+  return {exact, (error + units * Ball(half_unit(format)) * most + flushed).upper()};
 }
 
 class StepErrors {
@@ -139,7 +134,7 @@ class StepErrors {
     }
     if (now.is("sin") || now.is("cos")) {
       const bool is_measured = now.format.bits == 32 && certainly_at_most(abs(around), Ball(8.0));
-      const Ball own = is_measured ? Ball(0x1.8p-24) : four_units * roundoff(now.format);
+      const Ball own = is_measured ? Ball(0x1.8p-24) : four_units * Ball(half_unit(now.format));
       return {now.is("sin") ? sin(x.exact) : cos(x.exact), (x.error + own).upper()};
     }
     if (now.is("atan")) {

@@ -10,6 +10,11 @@
 
 namespace veritrack::checker {
 
+/// Half of a unit in the last place of 1.
+inline double half_unit(ListedFormat format) {
+  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
+}
+
 /// What a program adds to a number by constants.
 struct ListedShift {
   double by = 0.0;

@@ -29,10 +29,6 @@ bool is_sum(const ListedOperation& operation) {
   return operation.is("fadd") || operation.is("fsub");
 }
 
-double half_unit(ListedFormat format) {
-  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
-}
-
 }  // namespace
 
 Span slightly_wider(Span span) {

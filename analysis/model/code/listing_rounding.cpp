@@ -28,9 +28,6 @@ struct Computed {
   double error = kInfinity;
 };
 
-double roundoff_of(Format format) {
-  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
-}
 /// The smallest normal number: what may be flushed.
 double smallest(Format format) {
   return format.bits == 32 ? 0x1p-126 : 0x1p-1022;
@@ -85,7 +82,7 @@ class Evaluation {
     if (!rigor::is_finite(exact) || !(most <= largest(format))) {
       return {exact, kInfinity};
     }
-    const double rounding = rigor::mul_up(rigor::mul_up(units, roundoff_of(format)), most);
+    const double rounding = rigor::mul_up(rigor::mul_up(units, unit_roundoff(format)), most);
     return {exact, rigor::add_up(error, rigor::add_up(rounding, smallest(format)))};
   }
 
@@ -373,7 +370,7 @@ class Evaluation {
         const auto [sine, cosine] = rigor::sin_cos(x.exact);
         const double most = rigor::magnitude(whole);
         // Its bound was measured there.
-        const double absolute = format.bits == 32 && most <= 8.0 ? 0x1.8p-24 : 4.0 * roundoff_of(format);
+        const double absolute = format.bits == 32 && most <= 8.0 ? 0x1.8p-24 : 4.0 * unit_roundoff(format);
         return {instruction.operation == Operation::sin ? sine : cosine, rigor::add_up(x.error, absolute)};
       }
       case Operation::sqrt: {

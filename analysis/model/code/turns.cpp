@@ -15,10 +15,6 @@ using trackers::code::Predicate;
 
 constexpr std::size_t kMostPieces = 256;
 
-double unit_roundoff(trackers::code::Format format) {
-  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
-}
-
 bool is_whole_turns(double number) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const double turns = std::round(number / kTurn);

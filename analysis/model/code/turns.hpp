@@ -77,6 +77,11 @@ class Turns {
   std::map<int, int> without_turns_;
 };
 
+/// Half of a unit in the last place of 1 in a format of numbers.
+[[nodiscard]] inline double unit_roundoff(trackers::code::Format format) {
+  return format.bits == 32 ? 0x1p-24 : 0x1p-53;
+}
+
 /// Slack of a wrap: constants of single precision for turns and half turns, and the rounding of sums.
 inline constexpr double kWrapSlack = 1e-5;
 

@@ -24,7 +24,9 @@ std::string arithmetic_of(const ModelTable& model, bool is_rounded) {
         "units "
         "in the last place";
   }
-  return text + (model.angles.empty() ? "" : ", angles modulo 2 pi");
+  return text + (model.angles.empty()
+                     ? ""
+                     : ", angles modulo 2 pi, begun in the ranges that the wraps keep them in");
 }
 
 }  // namespace veritrack::certificates

@@ -130,7 +130,9 @@ std::string words_of_arithmetic(const Tree& design, bool is_rounded) {
         "two "
         "units in the last place";
   }
-  return words + (design.at("model").at("angles").elements().empty() ? "" : ", angles modulo 2 pi");
+  return words + (design.at("model").at("angles").elements().empty()
+                      ? ""
+                      : ", angles modulo 2 pi, begun in the ranges that the wraps keep them in");
 }
 
 }  // namespace veritrack::checker

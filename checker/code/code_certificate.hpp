@@ -22,7 +22,8 @@ struct CheckedCode {
 CheckedCode check_code(const Tree& design, Objections& objections);
 
 /// The arithmetic that a sentence is about: "In exact arithmetic", of a design with code " of the listing of
-/// `step` and `frequency` in pll.c (SHA-256 0123456789abcdef...), angles modulo 2 pi"; or that of the
+/// `step` and `frequency` in pll.c (SHA-256 0123456789abcdef...), angles modulo 2 pi, begun
+/// in the ranges that the wraps keep them in"; or that of the
 /// program, rounded.
 std::string words_of_arithmetic(const Tree& design, bool is_rounded);
 

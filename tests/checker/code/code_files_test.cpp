@@ -79,16 +79,20 @@ TEST_CASE("the words for a listing, in exact arithmetic and in that of the progr
   const std::string of =
       " of the listing of `step` and `frequency` in loop.c (SHA-256 " + sha256(kCode).substr(0, 16) + "...)";
   const Tree exact = read_json(design().dump());
-  CHECK(words_of_arithmetic(exact, false) == "In exact arithmetic" + of + ", angles modulo 2 pi");
+  CHECK(words_of_arithmetic(exact, false) ==
+        "In exact arithmetic" + of + ", angles modulo 2 pi, begun in the ranges that the wraps keep them in");
   const std::string rounded = words_of_arithmetic(exact, true);
   CHECK(rounded.find("In IEEE 754 arithmetic" + of + ", every operation rounded to nearest") == 0);
-  CHECK(rounded.find("in the last place, angles modulo 2 pi") != std::string::npos);
+  CHECK(rounded.find(
+            "in the last place, angles modulo 2 pi, begun in the ranges that the wraps keep them in") !=
+        std::string::npos);
   nlohmann::json later = design();
   std::string listing = later["code"]["listing"];
   listing.insert(listing.find("sample "), "steps-before 3\n");
   later["code"]["listing"] = listing;
   CHECK(words_of_arithmetic(read_json(later.dump()), false) ==
-        "In exact arithmetic" + of + " after its first 3 steps, angles modulo 2 pi");
+        "In exact arithmetic" + of +
+            " after its first 3 steps, angles modulo 2 pi, begun in the ranges that the wraps keep them in");
   CHECK(words_of_arithmetic(read_json(R"({"model": {}})"), false) == "In exact arithmetic");
 }
 

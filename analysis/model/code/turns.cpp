@@ -238,9 +238,9 @@ std::optional<std::vector<Turns::Truth>> Turns::truth_of_comparison(int conditio
         all.back().part.decided[condition] = holds;
       }
     };
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    add(-kInfinity, at_base + kWrapSlack / 4, is_less(instruction.predicate));
-    add(at_base - kWrapSlack / 4, kInfinity, is_greater(instruction.predicate));
+    const double infinity = std::numeric_limits<double>::infinity();
+    add(-infinity, at_base + kWrapSlack / 4, is_less(instruction.predicate));
+    add(at_base - kWrapSlack / 4, infinity, is_greater(instruction.predicate));
   }
   return all;
 }

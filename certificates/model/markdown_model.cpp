@@ -147,14 +147,14 @@ std::string recursion_section(const Model& model) {
          markdown::fenced(recursion_text(model, "the recursion", CodeLanguage::formulas), "") + "\n";
 }
 
-std::string coverage_section(const ModelTables& tables, bool bounds_covariance) {
+std::string coverage_section(const ModelTables& tables, bool bounds_covariance, bool is_rounded) {
   const bool moves = tables.assume.slew.value.upper() > 0.0;
   const bool is_gaussian = tables.assume.gaussian.has_value();
   return fmt::format(
       "## What this certificate covers, and what it does not\n\n"
-      "- Covered: the recursion above in exact arithmetic, for {}, every "
+      "- Covered: the recursion above{}, for {}, every "
       "phase and every frequency that a statement names.\n"
-      "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
+      "- Not covered: {}quantised samples, and whatever the formulas do "
       "not say, such as resets, lock detectors and limits that act.\n"
       "- The amplitude {}, and the signal has no other components than those of the "
       "signal formula. Everything else in the samples must {}.\n"
@@ -165,7 +165,9 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "- UNDECIDED refutes nothing: another set may exist.\n"
       "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
+      is_rounded ? " with the rounding of its program" : " in exact arithmetic",
       is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
+      is_rounded ? "" : "the rounding of the program that runs, ",
       tables.assume.one_amplitude ? "is exactly the assumed one"
       : tables.assume.constant_amplitude
           ? "is constant and some number of the assumed range, which is cut into parts (a set has tubes for "
@@ -217,12 +219,14 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
            model_gains_section(certificate, model, options) + recursion_section(model) +
            gains_coverage_section(tables, is_rounded);
   }
-  return design_section(certificate, tables, model) + model_code_section(tables, false) +
-         model_lock_section(certificate) +
-         (model_sets(certificate).phases ? model_phases_section(certificate) : std::string()) +
+  const auto& phases = model_sets(certificate).phases;
+  const bool is_rounded = phases && !phases->room.empty();
+  return design_section(certificate, tables, model) + model_code_section(tables, is_rounded) +
+         model_lock_section(certificate) + (phases ? model_phases_section(certificate) : std::string()) +
          (model_sets(certificate).averages ? model_averages_section(certificate) : std::string()) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
-         recursion_section(model) + coverage_section(tables, model_sets(certificate).bounds_covariance);
+         recursion_section(model) +
+         coverage_section(tables, model_sets(certificate).bounds_covariance, is_rounded);
 }
 
 }  // namespace veritrack::certificates

@@ -77,9 +77,8 @@ std::string model_code_section(const ModelTables& tables, bool is_rounded) {
                 "arithmetic, and say so.\n"
               : "- The statements are about the listing in exact arithmetic. The rounding of single and "
                 "double "
-                "precision is covered for loops of two channels that are certified by gains alone, and where "
-                "a "
-                "bound is known for every operation.\n") +
+                "precision is covered for loops that are certified by gains, in one channel over the phases, "
+                "and where a bound is known for every operation.\n") +
          "- That the compiled program does what the listing says is reported, not proved.\n" +
          (has_angles
               ? "- Angles are counted modulo 2π: a constant within 1e-5 of whole turns stands for whole "

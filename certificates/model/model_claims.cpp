@@ -197,7 +197,11 @@ class ModelClaims {
   /// For a part of the band.
   [[nodiscard]] ModelWords words_for(std::optional<BandPart> part, const ProvedSet& set) const {
     const ModelWords words(*tables_, std::move(part), sets_->starts_in(set));
-    return sets_->gains && sets_->gains->rounding ? words.rounded() : words;
+    const bool is_by_phases = !sets_->gains && set.proof == ProvedSet::Proof::gains;
+    return (sets_->gains && sets_->gains->rounding) ||
+                   (is_by_phases && sets_->phases && !sets_->phases->room.empty())
+               ? words.rounded()
+               : words;
   }
   static Claim reported(const char* id, const std::string& hypotheses) {
     Claim claim;

@@ -202,6 +202,15 @@ Json model_design_json(const Design& design) {
 
 namespace {
 
+/// Of the states of a program that rounds; 0 of angles.
+Json room_json(const std::vector<double>& room) {
+  Json json = Json::array();
+  for (const double each : room) {
+    json.push_back(rigor::to_hexadecimal(std::isfinite(each) ? each : 0.0));
+  }
+  return json;
+}
+
 Json gains_json(const model::GainProof& proof) {
   Json steady = Json::array();
   for (const model::SteadyValue& each : proof.steady) {
@@ -217,10 +226,7 @@ Json gains_json(const model::GainProof& proof) {
     json["horizon"] = proof.gains->samples();
     json["blocks"] = proof.gains->blocks();
     if (proof.rounding) {
-      json["rounding"] = Json::array();
-      for (const double room : proof.rounding->room) {
-        json["rounding"].push_back(rigor::to_hexadecimal(std::isfinite(room) ? room : 0.0));  // 0 of angles
-      }
+      json["rounding"] = room_json(proof.rounding->room);
     }
   }
   return json;
@@ -250,6 +256,9 @@ Json phase_gains_json(const model::PhaseProof& proof) {
   Json json{{"phases", proof.gridding.phases}, {"horizon", proof.gridding.horizon}, {"cells", Json::array()}};
   if (proof.gridding.late_blocks > 0) {
     json["late"] = {{"blocks", proof.gridding.late_blocks}, {"turns", proof.gridding.late_turns}};
+  }
+  if (!proof.room.empty()) {
+    json["rounding"] = room_json(proof.room);
   }
   for (const model::FloquetCell& each : proof.cells) {
     json["cells"].push_back(floquet_cell_json(each, proof.gridding.parts));

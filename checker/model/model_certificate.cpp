@@ -142,7 +142,7 @@ ByGains verified_gains(const Tree& certificate, const ModelDesign& design, const
   Objections objections;
   const Tree& evidence = certificate.at("gains");
   if (has_phases(certificate)) {
-    found.with_phases = read_phase_gains(evidence, model, design, objections);
+    found.with_phases = read_phase_gains(evidence, model, design, rounding, objections);
   } else {
     if (certificate.find("tubes") != nullptr) {
       objections.emplace_back("tubes and gains in one certificate");
@@ -187,12 +187,12 @@ void verify_by_gains(const Tree& certificate, const ModelDesign& design, const T
 
 /// By tubes, and with gains beside them: each claim by that which it names.
 void verify_by_tubes(const Tree& certificate, const ModelDesign& design, const TrackedModel& model,
-                     Verification& result) {
+                     const RoundingOfStep& rounding, Verification& result) {
   const std::map<std::string, TubeFamily> sets =
       verified_sets(certificate.at("tubes"), model, design, result);
   const ModelClaims by_tubes(certificate, design, model, sets, result.cells);
   const ByGains found =
-      has_phases(certificate) ? verified_gains(certificate, design, model, {}, result) : ByGains();
+      has_phases(certificate) ? verified_gains(certificate, design, model, rounding, result) : ByGains();
   const GainClaims by_gains(certificate, design, model, found.loop(), found.network());
   const std::unique_ptr<Gains> averages = verified_averages(certificate, design, model, result);
   const GainClaims by_averages(certificate, design, model, averages.get(), nullptr);
@@ -255,7 +255,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   if (by_gains) {
     verify_by_gains(certificate, design, model, rounding, result);
   } else {
-    verify_by_tubes(certificate, design, model, result);
+    verify_by_tubes(certificate, design, model, rounding, result);
   }
 }
 

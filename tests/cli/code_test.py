@@ -10,6 +10,7 @@ import unittest
 from support import ROOT, run
 
 DESIGN = ROOT / "designs" / "code" / "motor-pll.toml"
+ONE_CHANNEL = "sogi-fll.toml"
 VERIFY = os.environ["VERITRACK_VERIFY"]
 HARNESS = "float frequency(void) { return w; }\n"
 
@@ -27,8 +28,8 @@ class Code(unittest.TestCase):
             shutil.copy(file, self.folder)
         self.design = self.folder / DESIGN.name
 
-    def certificate(self):
-        result = run("certify", self.design, "--out", self.folder / "out")
+    def certificate(self, design=None):
+        result = run("certify", design or self.design, "--out", self.folder / "out")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("VERIFIED", result.stdout + result.stderr)
         return json.loads((self.folder / "out" / "certificate.json").read_text())
@@ -81,6 +82,37 @@ class Code(unittest.TestCase):
         changed = json.loads(json.dumps(genuine))
         bias = next(claim for claim in changed["claims"] if "bias_low" in claim)
         bias["bias_low"], bias["bias_high"] = "-0.0000001", "0.0000001"
+        self.assertIn(self.verdict(changed), (2, 3))
+
+    def test_a_loop_of_one_channel_with_limits_has_its_rounding_too(self):
+        genuine = self.certificate(self.folder / ONE_CHANNEL)
+        document = (self.folder / "out" / "certificate.md").read_text()
+        self.assertIn("In IEEE 754 arithmetic of the listing of `step` and `frequency` in sogi-fll.c", document)
+        self.assertNotIn("In exact arithmetic", document)
+        self.assertEqual(genuine["tubes"], [])
+        room = genuine["gains"]["rounding"]
+        for name, rooms in {"little room": [room[0], room[1], "0x1p-20"], "none": [room[0], "0x0p+0", room[2]],
+                            "less than none": ["-0x1p+3", room[1], room[2]], "a state less": room[:2],
+                            "so much that a divisor may be 0": ["0x1p+1", "0x1p+1", room[2]]}.items():
+            with self.subTest(name):
+                changed = json.loads(json.dumps(genuine))
+                changed["gains"]["rounding"] = rooms
+                self.assertIn(self.verdict(changed), (2, 3))
+        text = genuine["design"]["code"]["listing"]
+        changed = json.loads(json.dumps(genuine))
+        changed["design"]["code"]["listing"] = text.replace("f32:0x1.6a0902p+0", "f32:0x1.6a0904p+0")
+        self.assertNotEqual(changed["design"]["code"]["listing"], text)
+        self.assertIn(self.verdict(changed), (2, 3))
+        # Without the rounding it is a certificate about exact arithmetic, which the document is not.
+        changed = json.loads(json.dumps(genuine))
+        del changed["gains"]["rounding"]
+        (self.folder / "exact.json").write_text(json.dumps(changed))
+        document = self.folder / "out" / "certificate.md"
+        self.assertEqual(verify("--markdown", document, self.folder / "out" / "certificate.json").returncode, 0)
+        self.assertNotEqual(verify("--markdown", document, self.folder / "exact.json").returncode, 0)
+        changed = json.loads(json.dumps(genuine))
+        bias = next(claim for claim in changed["claims"] if "bias_low" in claim)
+        bias["bias_low"], bias["bias_high"] = "-0.0000014", "-0.0000012"  # of exact arithmetic
         self.assertIn(self.verdict(changed), (2, 3))
 
     def test_another_file_is_noticed(self):

@@ -1,19 +1,14 @@
 // What rounding adds to a loop: an input to each state at each sample, as long as the states stay in ranges.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "analysis/model/gain/loop_network.hpp"
+#include "analysis/model/step/program_rounding.hpp"
 #include "analysis/rigor/interval.hpp"
 
 namespace veritrack::model {
-
-/// Bounds on what a program is off in a step, of the states and of the frequency that it reports, for these
-/// ranges of its states and samples; those of angles are not asked for. Empty where no bound is known.
-using RoundingOfStep = std::function<std::optional<std::vector<double>>(
-    const std::vector<rigor::Interval>& states, const rigor::Interval& sample)>;
 
 /// Rounding in a loop about its steady state.
 struct LoopRounding {

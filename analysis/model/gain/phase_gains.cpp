@@ -19,6 +19,9 @@ void PhaseErrors::join(const PhaseErrors& other) {
   linear = larger_or_nan(linear, other.linear);
   bias = larger_or_nan(bias, other.bias);
   ripple = larger_or_nan(ripple, other.ripple);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i] = larger_or_nan(states[i], other.states.at(i));
+  }
   mean = hull(mean, other.mean);
   for (std::size_t i = 0; i < from_block.size(); ++i) {
     from_block[i] = larger_or_nan(from_block[i], other.from_block.at(i));
@@ -54,7 +57,8 @@ double PhaseGains::error_of(const Bounds& bounds) const {
   double error = 0.0;
   for (const PhasePart& part : parts_) {
     for (std::size_t g = 0; g < phases_; ++g) {
-      error = larger_or_nan(error, bounds[g].back() + rigor::magnitude(part.cells[g].bias));
+      error = larger_or_nan(
+          error, bounds[g].back() + rigor::magnitude(part.cells[g].bias) + part.rounding_of_frequency);
     }
   }
   return error;
@@ -74,7 +78,36 @@ double PhaseGains::missed_share() const {
 }
 
 double PhaseGains::largest_bias() const {
-  return error_of(Bounds(phases_, std::vector<double>(1, 0.0)));
+  double bias = 0.0;
+  for (const PhasePart& part : parts_) {
+    for (const PhaseNetwork& cell : part.cells) {
+      bias = larger_or_nan(bias, rigor::magnitude(cell.bias));
+    }
+  }
+  return bias;
+}
+
+double PhaseGains::rounding_of_frequency() const {
+  double most = 0.0;
+  for (const PhasePart& part : parts_) {
+    most = larger_or_nan(most, part.rounding_of_frequency);
+  }
+  return most;
+}
+
+std::vector<double> PhaseGains::rounded(const std::vector<double>& start) const {
+  std::vector<double> result = start;
+  for (const PhasePart& part : parts_) {
+    result.resize(std::max(result.size(), part.rounding_of_start.size()), 0.0);
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    double most = 0.0;
+    for (const PhasePart& part : parts_) {
+      most = larger_or_nan(most, part.rounding_of_start.empty() ? 0.0 : part.rounding_of_start[i]);
+    }
+    result[i] += most;
+  }
+  return result;
 }
 
 std::optional<std::pair<std::size_t, Interval>> PhaseGains::frequency_state() const {
@@ -96,7 +129,7 @@ void PhaseGains::add_mean_and_ripple(const Bounds& bounds, PhaseErrors& errors) 
     double most = 0.0;
     for (std::size_t g = 0; g < phases_; ++g) {
       const PhaseNetwork& cell = part.cells[g];
-      const double error = bounds[g].back();
+      const double error = bounds[g].back() + part.rounding_of_frequency;
       sum += cell.mean_bias;
       most = larger_or_nan(most, error);
       const Interval here = cell.bias + Interval::from_bounds(-error, error);
@@ -152,7 +185,8 @@ std::optional<PhaseErrors> PhaseGains::errors(const LoopDisturbance& disturbance
   if (!(disturbance.slew >= 0.0) || !(disturbance.slew <= slew_) || !(disturbance.noise >= 0.0)) {
     return std::nullopt;
   }
-  const std::vector<double> start = in_basis(disturbance.start);
+  const std::vector<double> of_states = rounded(disturbance.start);
+  const std::vector<double> start = in_basis(of_states);
   const auto peak = PhaseKernels::peak_of(kernels_, start);
   if (!peak) {
     return std::nullopt;
@@ -167,7 +201,7 @@ std::optional<PhaseErrors> PhaseGains::errors(const LoopDisturbance& disturbance
     }
     return most;
   };
-  const bool starts_off = !disturbance.start.empty();
+  const bool starts_off = !of_states.empty();
   const std::vector<double> nothing(kernels_.front().forms(), 0.0);
   std::optional<Bounds> bounds = closed(disturbance, starts_off ? from_start(0) : nothing);
   if (!bounds) {
@@ -185,6 +219,14 @@ std::optional<PhaseErrors> PhaseGains::errors(const LoopDisturbance& disturbance
   errors.linear = linear_error(disturbance);
   errors.bias = largest_bias();
   add_mean_and_ripple(late, errors);
+  if (!parts_.front().rounding_of_start.empty()) {
+    errors.states.assign(states(), 0.0);
+    for (const std::vector<double>& of_cell : *bounds) {
+      for (std::size_t i = 0; i < states(); ++i) {
+        errors.states[i] = larger_or_nan(errors.states[i], of_cell[i]);
+      }
+    }
+  }
   return errors;
 }
 

@@ -15,10 +15,11 @@ struct PhaseErrors {
   double for_ever = 0.0;
   std::vector<double> from_block;  ///< from the first sample of each block of the horizon on
   double long_run = 0.0;
-  double linear = 0.0;   ///< in the long run to first order, without bias and remainders
-  double bias = 0.0;     ///< the largest of the steady state, at any phase
-  rigor::Interval mean;  ///< over the phase, in the long run
-  double ripple = 0.0;   ///< the difference between the highest and the lowest error in the long run
+  double linear = 0.0;         ///< in the long run to first order, without bias and remainders
+  double bias = 0.0;           ///< the largest of the steady state, at any phase
+  rigor::Interval mean;        ///< over the phase, in the long run
+  double ripple = 0.0;         ///< the difference between the highest and the lowest error in the long run
+  std::vector<double> states;  ///< with rounding: how far each is from the curve, at most
 
   /// Those of both.
   void join(const PhaseErrors& other);
@@ -46,6 +47,8 @@ class PhaseGains {
   [[nodiscard]] double largest_gain() const { return linear_error({1.0, 0.0, {}}); }
   /// The largest frequency error on the curve, rad/sample.
   [[nodiscard]] double largest_bias() const;
+  /// What a program's frequency is off from that of its states, rad/sample.
+  [[nodiscard]] double rounding_of_frequency() const;
   [[nodiscard]] std::optional<std::pair<std::size_t, rigor::Interval>> frequency_state() const;
 
  private:
@@ -67,6 +70,8 @@ class PhaseGains {
   [[nodiscard]] std::optional<Bounds> closed(const LoopDisturbance& disturbance,
                                              const std::vector<double>& from_start) const;
   [[nodiscard]] double error_of(const Bounds& bounds) const;
+  /// With the rounding of a program, which rounds starts, too.
+  [[nodiscard]] std::vector<double> rounded(const std::vector<double>& start) const;
   /// Deviations of states, at most, in the basis.
   [[nodiscard]] std::vector<double> in_basis(const std::vector<double>& start) const;
   [[nodiscard]] Bounds in_long_run(const LoopDisturbance& disturbance, Bounds bounds) const;

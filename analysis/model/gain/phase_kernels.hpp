@@ -12,7 +12,7 @@
 namespace veritrack::model {
 
 /// Bounds of sums over all lags, of absolute values of states, for all parts together: of each column (noise,
-/// slew, gates), of the residual, and of 1 in each state.
+/// slew, gates), of the residual and rounding, and of 1 in each state.
 struct PhaseTotals {
   std::vector<std::vector<double>> of_column;
   std::vector<double> residual, contraction;

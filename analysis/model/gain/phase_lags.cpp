@@ -332,7 +332,8 @@ std::optional<PhaseTotals> PhaseKernels::totals_of(const std::vector<PhaseKernel
   Vector residual(all.front().states_, 0.0);  // that of a sample before may be of another part
   for (const PhaseKernels& each : all) {
     for (std::size_t i = 0; i < residual.size(); ++i) {
-      residual[i] = larger_or_nan(residual[i], each.part_->residual[i]);
+      const PhasePart& part = *each.part_;
+      residual[i] = larger_or_nan(residual[i], rigor::add_up(part.residual[i], part.rounding[i]));
     }
   }
   bool is_bounded =

@@ -344,6 +344,17 @@ PhaseLoop PhaseLoop::make(const TrackerModel& tracker, const TrackedTone& tone, 
   throw NoFrame(reason);
 }
 
+bool PhaseLoop::round(ProgramRounding rounding) {
+  rounding_ = std::make_shared<ProgramRounding>(std::move(rounding));
+  tracker_.rounding = rounding_.get();
+  auto gains = gains_of(0, false);
+  if (!gains) {
+    return false;
+  }
+  probe_ = std::make_shared<PhaseGains>(*std::move(gains));
+  return true;
+}
+
 bool PhaseLoop::for_each_part(const PartTask& task) const {
   std::atomic<bool> is_done{true};
   model::for_each_part(parts(), [&](std::size_t part) {

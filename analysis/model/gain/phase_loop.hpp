@@ -34,6 +34,10 @@ class PhaseLoop {
   [[nodiscard]] const std::vector<FloquetCell>& cells() const { return cells_; }
   [[nodiscard]] const PhaseGridding& gridding() const { return gridding_; }
 
+  /// With the rounding of the tracker's program from now on. Throws NoFrame where no bound of it is known.
+  /// False where errors may not decay.
+  bool round(ProgramRounding rounding);
+
   /// At a constant frequency: the bounds of some part of the frequencies, for a search.
   [[nodiscard]] const PhaseGains& probe() const { return *probe_; }
   /// Works on the bounds of every part by itself, at a constant frequency, in parallel; with the part's
@@ -64,6 +68,7 @@ class PhaseLoop {
   const TrackerModel* given_ = nullptr;
   const TrackedTone* tone_ = nullptr;
   TrackerModel tracker_;
+  std::shared_ptr<ProgramRounding> rounding_;
   std::shared_ptr<trackers::Recursion> recursion_;  ///< with factors in a better order
   std::vector<FloquetCell> cells_;
   PhaseGridding gridding_;

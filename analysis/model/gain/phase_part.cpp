@@ -44,6 +44,20 @@ double size_of(const BallModel& model) {
   return is_empty(range) ? NAN : rigor::magnitude(range);
 }
 
+/// What a program is off in a step.
+void add_rounding(const PhaseStep& step, PhasePart& part) {
+  part.rounding_of_start.resize(part.states, 0.0);
+  for (std::size_t i = 0; i < part.states; ++i) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < part.states; ++j) {
+      sum += size_of(step.inverse[i][j]) * step.rounding[j];
+    }
+    part.rounding[i] = larger_or_nan(part.rounding[i], sum);
+    part.rounding_of_start[i] = larger_or_nan(part.rounding_of_start[i], step.rounding[i]);
+  }
+  part.rounding_of_frequency = larger_or_nan(part.rounding_of_frequency, step.rounding.back());
+}
+
 /// Adds the suprema of a step's matrices to those of the part. False where one is not known.
 bool add_step(const PhaseStep& step, bool is_first, PhasePart& part) {
   const std::size_t n = part.states;
@@ -64,6 +78,9 @@ bool add_step(const PhaseStep& step, bool is_first, PhasePart& part) {
       slope = larger_or_nan(slope, size_of(step.basis_slope[i][j]));
     }
     part.residual[i] = larger_or_nan(part.residual[i], size_of(step.residual[i]));
+  }
+  if (!step.rounding.empty()) {
+    add_rounding(step, part);
   }
   PhaseNetwork cell;
   cell.inputs = step.inputs;
@@ -170,6 +187,7 @@ std::optional<PhasePart> phase_part(const TrackerModel& tracker, const FloquetCe
   part.basis_slope.assign(n * n, 0.0);
   part.off.assign(n * n, 0.0);
   part.residual.assign(n, 0.0);
+  part.rounding.assign(n, 0.0);
   for (const std::vector<double>& entry : cell.matrix) {
     const double low = rigor::midpoint(polynomial(entry, Interval(place.z - place.half_z)));
     const double high = rigor::midpoint(polynomial(entry, Interval(place.z + place.half_z)));
@@ -253,9 +271,11 @@ std::optional<PhasePart> with_slew(PhasePart part, double slew) {
     widen(each);
   }
   widen(part.slew);
-  const std::vector<double> more = times(part.residual);
-  for (std::size_t i = 0; i < n; ++i) {
-    part.residual[i] += more[i];
+  for (std::vector<double>* each : {&part.residual, &part.rounding}) {
+    const std::vector<double> more = times(*each);
+    for (std::size_t i = 0; i < n; ++i) {
+      (*each)[i] += more[i];
+    }
   }
   return part;
 }

@@ -37,19 +37,22 @@ struct PhasePart {
   double frequency = 0.0;   ///< in the middle, rad/sample
   double half_width = 0.0;  ///< rad/sample, at least
   std::vector<PhaseNetwork> cells;
-  std::vector<GridFunction> forms;      ///< the last one is the frequency error
-  std::vector<GridFunction> noise;      ///< columns of the components
-  std::map<int, GridFunction> columns;  ///< of gates, by the numbers of their inputs
-  GridFunction slew;                    ///< column, but for the bend of the curve
-  std::vector<double> slew_bend;        ///< what the bend adds to its error, times the slew
-  std::vector<rigor::Interval> matrix;  ///< at all phases and frequencies
-  std::vector<double> middle;           ///< the matrix of the cell in the middle of the part, nearly
-  std::vector<double> lean;             ///< half of what it changes over the part, nearly
-  std::vector<double> off;              ///< sup of how far the matrix is from the line of both
-  std::vector<double> residual;         ///< sup
-  std::vector<double> inverse;          ///< sup of the inverse of the basis
-  std::vector<double> basis_slope;      ///< sup of the inverse times the derivative of the basis
-  std::vector<double> basis_bend;       ///< what the bend of the basis adds to it, times the slew
+  std::vector<GridFunction> forms;        ///< the last one is the frequency error
+  std::vector<GridFunction> noise;        ///< columns of the components
+  std::map<int, GridFunction> columns;    ///< of gates, by the numbers of their inputs
+  GridFunction slew;                      ///< column, but for the bend of the curve
+  std::vector<double> slew_bend;          ///< what the bend adds to its error, times the slew
+  std::vector<rigor::Interval> matrix;    ///< at all phases and frequencies
+  std::vector<double> middle;             ///< the matrix of the cell in the middle of the part, nearly
+  std::vector<double> lean;               ///< half of what it changes over the part, nearly
+  std::vector<double> off;                ///< sup of how far the matrix is from the line of both
+  std::vector<double> residual;           ///< sup
+  std::vector<double> rounding;           ///< of a program in each step, sup
+  std::vector<double> rounding_of_start;  ///< of its states, not in the basis
+  double rounding_of_frequency = 0.0;     ///< rad/sample
+  std::vector<double> inverse;            ///< sup of the inverse of the basis
+  std::vector<double> basis_slope;        ///< sup of the inverse times the derivative of the basis
+  std::vector<double> basis_bend;         ///< what the bend of the basis adds to it, times the slew
   std::optional<std::pair<std::size_t, rigor::Interval>> frequency_state;
 };
 

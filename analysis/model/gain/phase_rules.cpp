@@ -7,6 +7,7 @@
 
 #include "analysis/model/gain/frame_value.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/piecewise.hpp"
 #include "analysis/rigor/taylor_coefficients.hpp"
 
 namespace veritrack::model {
@@ -112,6 +113,12 @@ std::pair<BallModel, BallModel> value_and_slope(Operation operation, const BallM
   }
 }
 
+PhaseValue negative(const PhaseValue& x) {
+  PhaseValue result{-x.base, {}};
+  add_slopes(result, BallModel(-1.0), x);
+  return result;
+}
+
 BallModel power_of(const BallModel& b, int exponent) {
   BallModel result(1.0);
   for (int i = 0; i < exponent; ++i) {
@@ -145,6 +152,10 @@ int PhaseRules::form_at(int place, const PhaseValue& value) {
   const int form = form_of(value);
   forms_.emplace(place, form);
   return form;
+}
+
+std::optional<std::size_t> PhaseRules::possible_form(int place, const PhaseValue& value) {
+  return value.slopes.empty() ? std::nullopt : std::optional(static_cast<std::size_t>(form_at(place, value)));
 }
 
 void PhaseRules::add_remainder(PhaseValue& value, RemainderSize size) {
@@ -251,6 +262,29 @@ PhaseValue PhaseRules::angle(int first, int second, const PhaseValue& y, const P
   return result;
 }
 
+PhaseValue PhaseRules::larger(int first, int second, const PhaseValue& x, const PhaseValue& z) {
+  PhaseValue result{maximum(x.base, z.base), {}};
+  const Interval difference = range_of(x.base - z.base);
+  const double distance = rigor::mignitude(difference);
+  // Both ways, half each, where the difference may be 0 on the curve.
+  const double share = !(distance > 0.0) ? 0.5 : difference.lower() > 0.0 ? 1.0 : 0.0;
+  for (const auto& [factor, each] : {std::pair(share, &x), std::pair(1.0 - share, &z)}) {
+    if (factor > 0.0) {
+      add_slopes(result, BallModel(factor), *each);
+    }
+  }
+  const auto a = possible_form(first, x);
+  const auto b = possible_form(second, z);
+  if (a || b) {
+    add_remainder(result, [=](const std::vector<double>& bounds) {
+      const double y = rigor::add_up(a ? bounds[*a] : 0.0, b ? bounds[*b] : 0.0);
+      const double beyond = distance > 0.0 ? rigor::sub_up(y, distance) : 0.5 * y;
+      return size_or_infinity(beyond < 0.0 ? 0.0 : beyond);
+    });
+  }
+  return result;
+}
+
 PhaseValue PhaseRules::within(int place, const PhaseValue& x, const PhaseValue& low, const PhaseValue& high) {
   if (!low.slopes.empty() || !high.slopes.empty()) {
     throw NoFrame("limits that are not constant");
@@ -269,6 +303,30 @@ PhaseValue PhaseRules::within(int place, const PhaseValue& x, const PhaseValue& 
   return result;
 }
 
+PhaseValue PhaseRules::by_larger(const Instruction& each, const std::vector<PhaseValue>& registers) {
+  const auto operand = [&](int number) -> const PhaseValue& {
+    return registers[static_cast<std::size_t>(number)];
+  };
+  const PhaseValue& x = operand(each.first);
+  switch (each.operation) {
+    case Operation::minimum:
+      return negative(larger(each.first, each.second, negative(x), negative(operand(each.second))));
+    case Operation::absolute:
+      return larger(each.first, each.first, x, negative(x));
+    default: {
+      const PhaseValue& low = operand(each.second);
+      const PhaseValue& high = operand(each.third);
+      if (!rigor::certainly_less_equal(range_of(low.base), range_of(high.base)) || !low.slopes.empty() ||
+          !high.slopes.empty()) {
+        throw NoFrame("limits that are not constant, or not in order");
+      }
+      const PhaseValue above_low = larger(each.first, each.second, x, low);
+      const int place = -1 - static_cast<int>(registers.size());  // beyond the registers
+      return negative(larger(place, each.third, negative(above_low), negative(high)));
+    }
+  }
+}
+
 PhaseValue PhaseRules::value_of(const Instruction& each, const std::vector<PhaseValue>& registers) {
   const auto operand = [&](int number) -> const PhaseValue& {
     return registers[static_cast<std::size_t>(number)];
@@ -283,11 +341,8 @@ PhaseValue PhaseRules::value_of(const Instruction& each, const std::vector<Phase
       add_slopes(sum, BallModel(sign), operand(each.second));
       return sum;
     }
-    case Operation::negate: {
-      PhaseValue negative{-x.base, {}};
-      add_slopes(negative, BallModel(-1.0), x);
-      return negative;
-    }
+    case Operation::negate:
+      return negative(x);
     case Operation::multiply:
       return product(each.first, each.second, x, operand(each.second));
     case Operation::divide: {
@@ -299,6 +354,12 @@ PhaseValue PhaseRules::value_of(const Instruction& each, const std::vector<Phase
     }
     case Operation::atan2:
       return angle(each.first, each.second, x, operand(each.second));
+    case Operation::maximum:
+      return larger(each.first, each.second, x, operand(each.second));
+    case Operation::minimum:
+    case Operation::absolute:
+    case Operation::clamp:
+      return by_larger(each, registers);
     case Operation::stays_within:
       return within(each.first, x, operand(each.second), operand(each.third));
     default:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "analysis/model/gain/phase_step.hpp"
@@ -27,9 +28,14 @@ class PhaseRules {
 
  private:
   int form_at(int place, const PhaseValue& value);
+  /// Where it has one.
+  std::optional<std::size_t> possible_form(int place, const PhaseValue& value);
   PhaseValue product(int first, int second, const PhaseValue& x, const PhaseValue& z);
   PhaseValue function(trackers::Operation operation, int exponent, int place, const PhaseValue& x);
   PhaseValue angle(int first, int second, const PhaseValue& y, const PhaseValue& x);
+  PhaseValue larger(int first, int second, const PhaseValue& x, const PhaseValue& z);
+  /// Minimum, absolute value, clamp.
+  PhaseValue by_larger(const trackers::Instruction& each, const std::vector<PhaseValue>& registers);
   PhaseValue within(int place, const PhaseValue& x, const PhaseValue& low, const PhaseValue& high);
   void add_remainder(PhaseValue& value, RemainderSize size);
 

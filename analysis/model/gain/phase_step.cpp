@@ -213,6 +213,36 @@ void change_basis(const std::vector<PhaseValue>& next, std::size_t channels, std
   }
 }
 
+/// What the program is off in this step while its states are within their room, which is a condition on forms
+/// of their own.
+void add_rounding(const TrackerModel& tracker, const std::vector<PhaseValue>& states, PhaseRules& rules,
+                  PhaseStep& step) {
+  const ProgramRounding& program = *tracker.rounding;
+  std::vector<Interval> ranges;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double room = program.room[i];
+    const auto form = static_cast<std::size_t>(rules.form_of(states[i]));
+    if (std::isfinite(room)) {
+      step.forms[form].direct.push_back({static_cast<int>(step.inputs.size()), 1.0});
+      step.inputs.push_back(
+          {false,
+           [form, room](const std::vector<double>& bounds) { return bounds[form] < room ? 0.0 : INFINITY; },
+           {}});
+    }
+    ranges.push_back(states[i].base.range() + Interval::from_bounds(-room, room));
+  }
+  step.rounding.assign(states.size() + 1, 0.0);
+  if (!program.of_step) {
+    return;
+  }
+  const double most = 2.0 * tracker.amplitude.upper();
+  auto found = program.of_step(ranges, Interval::from_bounds(-most, most));
+  if (!found || found->size() != step.rounding.size()) {
+    throw NoFrame("no bound of the rounding of its program is known");
+  }
+  step.rounding = *std::move(found);
+}
+
 }  // namespace
 
 PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const TubeCell& part) {
@@ -229,9 +259,11 @@ PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell, const
   for (const Interval& constant : tracker.constants) {
     values.push_back(constant_value(constant));
   }
-  for (PhaseValue& state : states_in_basis(tube_at(cell.curve, place.phase, place.z).curve,
-                                           basis_at(cell, place.phase, place.z))) {
-    values.push_back(std::move(state));
+  const std::vector<PhaseValue> states =
+      states_in_basis(tube_at(cell.curve, place.phase, place.z).curve, basis_at(cell, place.phase, place.z));
+  values.insert(values.end(), states.begin(), states.end());
+  if (tracker.rounding != nullptr) {
+    add_rounding(tracker, states, run.rules(), step);
   }
   step.frequency_state = frequency_state(tracker, values);
   std::vector<PhaseValue> error = run.run(tracker.recursion->frequency, values, false);

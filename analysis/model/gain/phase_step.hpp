@@ -47,7 +47,8 @@ struct PhaseInput {
 /// The step over a cell. Inputs are numbered as they arise: first the components of the noise.
 struct PhaseStep {
   std::vector<PhaseInput> inputs;
-  std::vector<PhaseForm> forms;                          ///< the last one is the frequency error
+  /// With rounding the first ones are the states; the last one is the frequency error.
+  std::vector<PhaseForm> forms;
   std::vector<int> gates;                                ///< remainders, gathered or alone, that have columns
   std::vector<std::vector<rigor::BallModel>> matrix;     ///< rows, in the basis
   std::map<int, std::vector<rigor::BallModel>> columns;  ///< of noise and gates
@@ -57,6 +58,7 @@ struct PhaseStep {
   std::vector<rigor::BallModel> residual;  ///< in the basis
   std::vector<rigor::BallModel> slew;      ///< column of a slew, but for the curve's bend
   rigor::BallModel bias;                   ///< the frequency error on the curve, rad/sample
+  std::vector<double> rounding;            ///< of the states after the step and of the frequency, at most
   /// The one state of which the frequency is a multiple, and the factor; or none.
   std::optional<std::pair<std::size_t, rigor::Interval>> frequency_state;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <complex>
 #include <utility>
 
 #include "analysis/model/gain/frame_value.hpp"
@@ -24,8 +25,10 @@ double with_room(double bound) {
 
 class PhaseSets {
  public:
-  PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance, KnownLimits known)
-      : question_(&question), loop_(&loop), half_distance_(half_distance), known_(known) {}
+  /// `exact`: the same in exact arithmetic, where the program rounds.
+  PhaseSets(const SetQuestion& question, const PhaseLoop& loop, double half_distance, KnownLimits known,
+            const PhaseSets* exact = nullptr)
+      : question_(&question), loop_(&loop), half_distance_(half_distance), known_(known), exact_(exact) {}
 
   /// Empty where no bounds close without noise. Those for the assumed noise and slew need not close.
   [[nodiscard]] std::optional<PhaseProof> all() {
@@ -42,6 +45,25 @@ class PhaseSets {
 
   /// Whether the deadline was over before all parts had their bounds.
   [[nodiscard]] bool was_stopped() const { return was_stopped_; }
+
+  /// How far each state may be from the curve for a program that rounds: half as far again as in all of
+  /// these.
+  [[nodiscard]] std::vector<double> room() const {
+    constexpr double kSpare = 1.5;
+    const trackers::Recursion& recursion = *question_->tracker.recursion;
+    std::vector<double> room(static_cast<std::size_t>(recursion.states), INFINITY);
+    for (std::size_t i = 0; i < room.size(); ++i) {
+      if (recursion.is_angle[i]) {
+        continue;
+      }
+      double most = 0.0;
+      for (const auto* each : {&still_, &assumed_, &from_starts_, &at_noise_, &at_reach_}) {
+        most = std::max(most, *each ? (*each)->states.at(i) : 0.0);
+      }
+      room[i] = kSpare * most + 0x1p-10 * size_of_state(i);
+    }
+    return room;
+  }
 
  private:
   /// The bounds that are asked of each part at a constant frequency.
@@ -68,7 +90,8 @@ class PhaseSets {
       return {};
     }
     std::vector<double> start(gains.states(), 0.0);
-    start[state->first] = rigor::div_up(rigor::add_up(error, gains.largest_bias()), factor);
+    const double off = rigor::add_up(gains.largest_bias(), gains.rounding_of_frequency());
+    start[state->first] = rigor::div_up(rigor::add_up(error, off), factor);
     return start;
   }
   [[nodiscard]] std::optional<PhaseErrors> from_error(const PhaseGains& gains, double error) const {
@@ -177,10 +200,26 @@ class PhaseSets {
     return true;
   }
 
-  /// The effect of the curve's distance from a steady state: rounding, and remainders over cells of phases.
-  /// The bounds of two programs may differ by as much.
-  [[nodiscard]] double of_rounding() const { return std::max(0.0, still_->for_ever - still_->bias); }
-  [[nodiscard]] double claimed(double bound) const { return rigor::add_up(with_room(bound), of_rounding()); }
+  [[nodiscard]] double size_of_state(std::size_t state) const {
+    double most = 0.0;
+    for (const FloquetCell& cell : loop_->cells()) {
+      double size = 0.0;
+      for (const auto& of_harmonic : cell.curve.curve[state].coefficients) {
+        for (const std::complex<double>& each : of_harmonic) {
+          size += std::abs(each);
+        }
+      }
+      most = std::max(most, size);
+    }
+    return most;
+  }
+
+  /// The effect of the curve's distance from a steady state: remainders over cells of phases, and the
+  /// rounding of this program. The bounds of two programs may differ by as much.
+  [[nodiscard]] double slack() const {
+    return exact_ != nullptr ? exact_->slack() : std::max(0.0, still_->for_ever - still_->bias);
+  }
+  [[nodiscard]] double claimed(double bound) const { return rigor::add_up(with_room(bound), slack()); }
 
   [[nodiscard]] ProvedSet set_of(const char* name, const LoopDisturbance& disturbance,
                                  const std::optional<PhaseErrors>& errors) const {
@@ -208,12 +247,13 @@ class PhaseSets {
                      assumed_ ? *assumed_ : *still_,
                      set_of(kStarts, {}, still_),
                      {},
+                     {},
                      {}};
     ProvedSet& starts = proof.starts;
     const double width = with_room(still_->ripple);
-    const double room = 0.03 * width + 2.0 * of_rounding() + 1e-13;  // they may be little else
+    const double room = 0.03 * width + 2.0 * slack() + 1e-13;  // they may be little else
     starts.bias = still_->mean + Interval::from_bounds(-room, room);
-    starts.ripple = rigor::add_up(width, 4.0 * of_rounding() + 1e-13);
+    starts.ripple = rigor::add_up(width, 4.0 * slack() + 1e-13);
     if (reach_ > 0.0 && at_reach_) {
       starts.reach = kRoom * reach_;
       starts.frequency_error = claimed(at_reach_->for_ever);
@@ -241,12 +281,33 @@ class PhaseSets {
   const PhaseLoop* loop_;
   double half_distance_;
   KnownLimits known_;
+  const PhaseSets* exact_;
   bool closes_for_assumed_ = false;
   std::atomic<bool> was_stopped_ = false;  // parts are worked on in parallel
   double probed_noise_ = 0.0, probed_reach_ = 0.0;
   std::optional<PhaseErrors> still_, assumed_, from_starts_, at_noise_, at_reach_;
   double noise_ = 0.0, reach_ = 0.0;
 };
+
+/// The same of the program that runs; empty where its bounds do not close, or no bound of its rounding is
+/// known.
+std::optional<PhaseProof> rounded_proof(const SetQuestion& question, PhaseLoop& loop, const PhaseSets& exact,
+                                        double half_distance, KnownLimits known) {
+  std::vector<double> room = exact.room();
+  try {
+    if (!loop.round({room, question.rounding})) {
+      return std::nullopt;
+    }
+  } catch (const NoFrame&) {
+    return std::nullopt;
+  }
+  PhaseSets sets(question, loop, half_distance, known, &exact);
+  std::optional<PhaseProof> proof = sets.all();
+  if (proof) {
+    proof->room = std::move(room);
+  }
+  return proof;
+}
 
 }  // namespace
 
@@ -277,11 +338,19 @@ std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, Know
     return nothing(NoGains::Kind::band);
   }
   try {
-    const PhaseLoop loop =
-        PhaseLoop::make(question.tracker, question.tone, band, question.slew > 0.0, question.deadline);
+    const ProgramRounding none{
+        std::vector<double>(static_cast<std::size_t>(question.tracker.recursion->states), INFINITY), {}};
+    TrackerModel tracker = question.tracker;
+    tracker.rounding = question.rounding ? &none : nullptr;
+    PhaseLoop loop = PhaseLoop::make(tracker, question.tone, band, question.slew > 0.0, question.deadline);
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
     PhaseSets sets(question, loop, half_distance, known);
     auto proof = sets.all();
+    if (proof && question.rounding) {
+      if (auto rounded = rounded_proof(question, loop, sets, half_distance, known)) {
+        return rounded;
+      }
+    }
     return proof                ? std::move(proof)
            : sets.was_stopped() ? nothing(NoGains::Kind::time, "the bounds of its errors were found")
                                 : nothing(NoGains::Kind::bounds);

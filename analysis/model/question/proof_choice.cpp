@@ -87,6 +87,25 @@ void add_phases(const SetQuestion& question, ChosenProof& chosen) {
   }
 }
 
+/// Tubes are for exact arithmetic.
+bool decides_for_program(const PhaseProof& phases) {
+  return !phases.room.empty() && phases.starts.is_proved() && phases.assumed.is_proved();
+}
+
+ProvedSets without_tubes(const SetQuestion& question, PhaseProof phases) {
+  const char* reason = "tubes were not searched for: they are for exact arithmetic";
+  ProvedSets sets;
+  sets.starts.tubes.name = kStarts;
+  sets.starts.tubes.reasons.emplace_back(reason);
+  if (question.is_disturbed()) {
+    sets.assumed.emplace();
+    sets.assumed->tubes.name = kAssumed;
+    sets.assumed->tubes.reasons.emplace_back(reason);
+  }
+  sets.phases = std::move(phases);
+  return sets;
+}
+
 }  // namespace
 
 bool covariance_is_bounded(const trackers::FilterParts& filter, bool names_covariance) {
@@ -110,8 +129,9 @@ FirstProof prove_by_gains_first(const SetQuestion& question) {
   if (!first.by_gains) {
     first.no_gains = std::move(reason);
   }
-  first.is_enough = first.by_gains && (recursion.samples > 1 ? is_best_of_two_channels(*first.by_gains)
-                                                             : is_near_linear(*first.by_gains));
+  first.is_enough =
+      first.by_gains && (recursion.samples > 1 ? is_best_of_two_channels(*first.by_gains)
+                                               : !question.rounding && is_near_linear(*first.by_gains));
   if (!first.is_enough) {
     first.objection = objection_to_tubes(question);
   }
@@ -121,6 +141,12 @@ FirstProof prove_by_gains_first(const SetQuestion& question) {
 ChosenProof choose_proof(const SetQuestion& question, std::optional<ProvedSets> by_gains,
                          const SetProgress& progress) {
   ChosenProof chosen;
+  if (question.rounding) {
+    if (auto phases = prove_by_phase_gains(question, {}, nullptr); phases && decides_for_program(*phases)) {
+      chosen.sets = without_tubes(question, *std::move(phases));
+      return chosen;
+    }
+  }
   chosen.sets = prove_sets(question, progress);
   const bool is_one_channel = question.tracker.recursion->samples == 1;
   // With two channels gains prove something even where they do not decide.

@@ -31,6 +31,7 @@ struct PhaseProof {
   PhaseErrors errors;         ///< for what is assumed; without noise and slew where `assumed` is not proved
   ProvedSet starts, assumed;  ///< as those of ProvedSets
   std::optional<ProvedSet> noise;
+  std::vector<double> room;  ///< of the states of a program that rounds; empty: exact arithmetic
 };
 
 /// Beside tubes: of a loop of one channel whose ripple is averaged. Its bounds in the long run are mostly

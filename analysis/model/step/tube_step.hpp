@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/model/step/program_rounding.hpp"
 #include "analysis/model/step/tube.hpp"
 #include "analysis/rigor/ball_model.hpp"
 #include "analysis/rigor/interval.hpp"
@@ -29,6 +30,8 @@ struct TrackerModel {
   bool amplitude_varies = false;  ///< from sample to sample, in that range; otherwise it is constant
   /// The parts of an extended Kalman filter, if it can be decomposed: for tubes that bound the covariance.
   const trackers::FilterParts* filter = nullptr;
+  /// Of the program that runs, for gains over the phase; none: exact arithmetic.
+  const ProgramRounding* rounding = nullptr;
 };
 
 class PlaceStore;

@@ -16,7 +16,7 @@ GainClaims::GainClaims(const Tree& certificate, const ModelDesign& design, const
       network_(network),
       half_distance_(half_distance_to_false_lock(model, design.lowest, design.highest)),
       exact_words_(*tree_),
-      words_(network != nullptr && network->is_rounded ? exact_words_.rounded() : exact_words_),
+      words_(loop != nullptr && loop->is_rounded() ? exact_words_.rounded() : exact_words_),
       required_(certificate, design, "") {
   Objections said_before;  // by the design
   units_ = FrequencyWords(tree_->at("assume"), said_before);

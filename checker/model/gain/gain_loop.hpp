@@ -21,6 +21,7 @@ struct Gains : LoopBounds {
   [[nodiscard]] std::unique_ptr<FrequencyErrors> errors(const Ball& noise, const Ball& slew,
                                                         const std::vector<Ball>& start) const override;
   [[nodiscard]] std::vector<Ball> starts_within(const Ball& reach) const override;
+  [[nodiscard]] bool is_rounded() const override { return network.is_rounded; }
 };
 
 }  // namespace veritrack::checker

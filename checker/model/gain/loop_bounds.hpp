@@ -49,6 +49,8 @@ class LoopBounds {
   /// All deviations of the one state that the frequency is a multiple of with frequency errors up to
   /// `reach`, by state; none where there is no such state.
   [[nodiscard]] virtual std::vector<Ball> starts_within(const Ball& reach) const = 0;
+  /// Whether a program's rounding is in the bounds.
+  [[nodiscard]] virtual bool is_rounded() const = 0;
 };
 
 }  // namespace veritrack::checker

@@ -24,10 +24,12 @@ double size_of(const DoubleRange& range) {
 
 class PhaseErrors : public FrequencyErrors {
  public:
-  PhaseErrors(std::vector<GroupErrors> errors, std::size_t form) : errors_(std::move(errors)), form_(form) {}
+  /// `rounding`: what the program's frequency is off from that of its states.
+  PhaseErrors(std::vector<GroupErrors> errors, std::size_t form, Ball rounding)
+      : errors_(std::move(errors)), form_(form), rounding_(std::move(rounding)) {}
 
   [[nodiscard]] Ball for_ever() const override {
-    return largest([](const GroupErrors& each) { return each.for_ever; }, form_);
+    return largest([](const GroupErrors& each) { return each.for_ever; }, form_) + rounding_;
   }
   [[nodiscard]] Ball from(const Ball& sample) const override {
     const double whole = std::floor(sample.lower_double());
@@ -43,16 +45,16 @@ class PhaseErrors : public FrequencyErrors {
         }
       }
     }
-    return min(Ball(most), for_ever());
+    return min(Ball(most) + rounding_, for_ever());
   }
   [[nodiscard]] Ball in_long_run() const override {
-    return largest([](const GroupErrors& each) { return Table{each.late}; }, 0);
+    return largest([](const GroupErrors& each) { return Table{each.late}; }, 0) + rounding_;
   }
   [[nodiscard]] Range mean() const override {
     Range all(Ball::everything());
     bool is_first = true;
     for (const GroupErrors& of : errors_) {
-      const Ball most(*std::max_element(of.late.begin(), of.late.end()));
+      const Ball most = Ball(*std::max_element(of.late.begin(), of.late.end())) + rounding_;
       for (std::size_t part = 0; part < of.group->size(); ++part) {
         Ball low;
         Ball high;
@@ -84,7 +86,7 @@ class PhaseErrors : public FrequencyErrors {
         most = max(most, high - low);
       }
     }
-    return errors_.empty() ? Ball::everything() : most;
+    return errors_.empty() ? Ball::everything() : most + two * rounding_;
   }
 
  private:
@@ -108,6 +110,7 @@ class PhaseErrors : public FrequencyErrors {
 
   std::vector<GroupErrors> errors_;
   std::size_t form_;
+  Ball rounding_;
 };
 
 /// A little below bounds of another group, so that the search goes upward.
@@ -193,8 +196,12 @@ std::unique_ptr<FrequencyErrors> PhaseBounds::errors(const Ball& noise, const Ba
   for (const Ball& deviation : start) {
     deviations.push_back(certainly_not_negative(deviation) ? upper(deviation) : HUGE_VAL);
   }
+  add_rounding_of_start(deviations);
   const double most_noise = upper(noise);
   const double most_slew = upper(slew);
+  if (evidence_.program && !(most_noise <= evidence_.program->most_noise)) {
+    return nullptr;
+  }
   if (start.size() != states() || !certainly_not_negative(noise) || !certainly_not_negative(slew) ||
       !std::isfinite(most_noise) || !std::isfinite(most_slew) ||
       !std::all_of(deviations.begin(), deviations.end(), [](double x) { return std::isfinite(x); }) ||
@@ -216,7 +223,32 @@ std::unique_ptr<FrequencyErrors> PhaseBounds::errors(const Ball& noise, const Ba
   const std::size_t runs = (all.size() + kRun - 1) / kRun;
   return runs == 0 || first_failure(runs, bound_run) < runs
              ? nullptr
-             : std::make_unique<PhaseErrors>(std::move(errors), evidence_.structure.error_form);
+             : std::make_unique<PhaseErrors>(std::move(errors), evidence_.structure.error_form,
+                                             rounding_of_frequency());
+}
+
+Ball PhaseBounds::rounding_of_frequency() const {
+  Ball most;
+  for (const std::vector<PhasePart>& cell : evidence_.cells) {
+    for (const PhasePart& part : cell) {
+      most = max(most, Ball(part.rounding.of_frequency));
+    }
+  }
+  return most;
+}
+
+void PhaseBounds::add_rounding_of_start(std::vector<double>& deviations) const {
+  std::vector<double> most(deviations.size(), 0.0);
+  for (const std::vector<PhasePart>& cell : evidence_.cells) {
+    for (const PhasePart& part : cell) {
+      for (std::size_t i = 0; i < std::min(most.size(), part.rounding.of_start.size()); ++i) {
+        most[i] = std::max(most[i], part.rounding.of_start[i]);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    deviations[i] = up(deviations[i] + most[i]);
+  }
 }
 
 std::vector<Ball> PhaseBounds::starts_within(const Ball& reach) const {
@@ -234,7 +266,7 @@ std::vector<Ball> PhaseBounds::starts_within(const Ball& reach) const {
     const Ball& factor = evidence_.frequency_factors[i];
     if (!certainly_equal(factor, zero)) {
       ++moved;
-      start[i] = (reach + bias) / abs(factor);
+      start[i] = (reach + bias + rounding_of_frequency()) / abs(factor);
     }
   }
   return moved == 1 ? start : std::vector<Ball>();

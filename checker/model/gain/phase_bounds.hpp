@@ -16,7 +16,8 @@ struct PhaseLoopEvidence {
   std::vector<std::vector<PhasePart>> cells;  ///< by cell: its parts, from low frequencies to high ones
   std::size_t phases = 0;
   PhaseHorizon horizon;
-  std::vector<Ball> frequency_factors;  ///< by state: the derivative of the frequency, wherever it is
+  std::vector<Ball> frequency_factors;    ///< by state: the derivative of the frequency, wherever it is
+  std::optional<RoundedProgram> program;  ///< then states are forms; none: exact arithmetic
 };
 
 /// Bounds by form and cell of phases.
@@ -42,6 +43,8 @@ class PhaseSolver {
   [[nodiscard]] std::vector<double> of_form(const Sizes& sizes, std::size_t part, std::size_t form,
                                             double start) const;
   [[nodiscard]] std::optional<PhaseTable> next(const PhaseTable& bounds, bool is_started) const;
+  /// Whether states are within their room.
+  [[nodiscard]] bool keeps_room(const PhaseTable& bounds) const;
   [[nodiscard]] double direct(const Sizes& sizes, std::size_t part, std::size_t form, std::size_t cell) const;
   [[nodiscard]] double of_start(std::size_t part, std::size_t form, std::size_t first) const;
 
@@ -66,7 +69,12 @@ class PhaseBounds : public LoopBounds {
                                                         const std::vector<Ball>& start) const override;
   [[nodiscard]] std::vector<Ball> starts_within(const Ball& reach) const override;
 
+  [[nodiscard]] bool is_rounded() const override { return evidence_.program.has_value(); }
+
  private:
+  [[nodiscard]] Ball rounding_of_frequency() const;
+  /// A program rounds its starts, too.
+  void add_rounding_of_start(std::vector<double>& deviations) const;
   using Groups = std::vector<std::shared_ptr<const PhaseGroup>>;
   /// The groups for a slew; they are kept until they are asked for with another one.
   [[nodiscard]] const Groups& groups(double slew) const;

@@ -1,5 +1,6 @@
 #include "checker/model/gain/phase_evidence.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "checker/model/gain/exact_number.hpp"
@@ -135,10 +136,31 @@ std::vector<Ball> factors_of_frequency(const ModelRecursion& recursion) {
   return factors;
 }
 
+/// Throws NotCovered.
+RoundedProgram read_program(const Tree& list, const TrackedModel& model, const RoundingOfStep& rounding) {
+  const std::vector<bool>& is_angle = model.recursion->is_angle();
+  RoundedProgram program{{}, model.amplitude.lower_double(), rounding};
+  for (const Tree& entry : list.elements()) {
+    program.room.push_back(double_from(entry));
+  }
+  if (!rounding || program.room.size() != model.recursion->states()) {
+    throw NotCovered("rounding without a listing that bounds it, or of other states");
+  }
+  for (std::size_t i = 0; i < program.room.size(); ++i) {
+    double& room = program.room[i];
+    if (is_angle[i] ? room != 0.0 : !(std::isfinite(room) && room > 0.0)) {
+      throw NotCovered("the room of a state is a number above 0, and that of an angle 0");
+    }
+    room = is_angle[i] ? HUGE_VAL : room;
+  }
+  return program;
+}
+
 }  // namespace
 
 std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedModel& model,
-                                              const ModelDesign& design, Objections& objections) {
+                                              const ModelDesign& design, const RoundingOfStep& rounding,
+                                              Objections& objections) {
   const ModelRecursion& recursion = *model.recursion;
   const long phases = gains.at("phases").integer();
   const long horizon = gains.at("horizon").integer();
@@ -170,14 +192,18 @@ std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedMo
     evidence.horizon.late_blocks = late_blocks;
     evidence.horizon.late_turns = late_turns;
     evidence.frequency_factors = factors_of_frequency(recursion);
+    if (const Tree* room = gains.find("rounding")) {
+      evidence.program = read_program(*room, model, rounding);
+    }
     evidence.structure =
         phase_structure(with_small_factors_last(recorded_step(recursion),
                                                 steady_points(model, cells.front(), evidence.phases)),
-                        recursion.states(), recursion.samples());
+                        recursion.states(), recursion.samples(), evidence.program.has_value());
     for (const PhaseCell& cell : cells) {
       evidence.cells.emplace_back(cell.parts);
       first_failure(cell.parts, [&](std::size_t part) {
-        evidence.cells.back()[part] = phase_part(evidence.structure, model, cell, part, evidence.phases);
+        evidence.cells.back()[part] = phase_part(evidence.structure, model, cell, part, evidence.phases,
+                                                 evidence.program ? &*evidence.program : nullptr);
         return true;
       });
     }

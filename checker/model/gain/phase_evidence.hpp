@@ -10,8 +10,10 @@
 
 namespace veritrack::checker {
 
-/// Objects where nothing can be said by such gains, and returns nothing then.
+/// Objects where nothing can be said by such gains, and returns nothing then. `rounding`: of the design's
+/// code; or empty.
 std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedModel& model,
-                                              const ModelDesign& design, Objections& objections);
+                                              const ModelDesign& design, const RoundingOfStep& rounding,
+                                              Objections& objections);
 
 }  // namespace veritrack::checker

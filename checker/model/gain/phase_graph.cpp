@@ -145,11 +145,14 @@ Recorded stays_within(const Recorded& x, const Recorded& low, const Recorded& hi
                                   {PhaseOperation::within, x.in(*x.nodes()), 0, low.number(), high.number()});
 }
 Recorded larger(const Recorded& x, const Recorded& y) {
-  return are_numbers(x, y) ? Recorded(larger(x.number(), y.number())) : (refuse("max, min and abs"), x);
+  return are_numbers(x, y) ? Recorded(larger(x.number(), y.number())) : record(PhaseOperation::larger, x, y);
 }
 Recorded clamped(const Recorded& x, const Recorded& low, const Recorded& high) {
-  return x.is_number() && are_numbers(low, high) ? Recorded(clamped(x.number(), low.number(), high.number()))
-                                                 : (refuse("clamp"), x);
+  if (!are_numbers(low, high) || !certainly_at_most(low.number(), high.number())) {
+    refuse("clamp with limits that are not numbers, or not in order");
+  }
+  return x.is_number() ? Recorded(clamped(x.number(), low.number(), high.number()))
+                       : -larger(-larger(x, low), -high);
 }
 Recorded chosen(const Recorded& positive, const Recorded& a, const Recorded& b) {
   return positive.is_number() && are_numbers(a, b)
@@ -171,6 +174,7 @@ std::size_t operands_of(const PhaseNode& node) {
     case PhaseOperation::sum:
     case PhaseOperation::difference:
     case PhaseOperation::product:
+    case PhaseOperation::larger:
     case PhaseOperation::arctangent2:
       return 2;
     default:

@@ -19,6 +19,7 @@ enum class PhaseOperation {
   negation,
   product,
   reciprocal,
+  larger,
   within,
   arctangent2,
   sine,

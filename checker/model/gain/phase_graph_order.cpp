@@ -32,6 +32,8 @@ double near_value(const PhaseNode& node, const std::vector<double>& values, cons
       return x * y;
     case PhaseOperation::reciprocal:
       return 1.0 / x;
+    case PhaseOperation::larger:
+      return std::max(x, y);
     case PhaseOperation::within:
       return x;
     case PhaseOperation::arctangent2:

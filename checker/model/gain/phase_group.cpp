@@ -74,33 +74,45 @@ std::vector<const Table*> PhaseGroup::defects() const {
   return all;
 }
 
+bool PhaseGroup::add_steady(const std::vector<double>& sizes, Table& of_forms) const {
+  Table totals;
+  for (const PhaseKernels& kernels : kernels_) {
+    totals.push_back(kernels.total_of(sizes));
+  }
+  const std::optional<std::vector<double>> bound = closed_together(defects(), totals);
+  if (!bound) {
+    return false;
+  }
+  const std::size_t forms = parts_.front()->forms.size();
+  for (const PhaseKernels& kernels : kernels_) {
+    of_forms.emplace_back();
+    for (std::size_t form = 0; form < forms; ++form) {
+      of_forms.back().push_back(kernels.of_form(form, *bound));
+    }
+  }
+  return true;
+}
+
 bool PhaseGroup::close(const std::vector<Widened>& all) {
   const std::size_t n = parts_.front()->off.size();
   std::vector<double> residual(n, 0.0);
+  std::vector<double> rounding(n, 0.0);
   for (const Widened& part : all) {
     raise_all(residual, part.residual);
+    raise_all(rounding, part.rounding);
   }
   Table units;
-  Table residuals;
   for (const PhaseKernels& kernels : kernels_) {
     units.push_back(kernels.total_of(std::vector<double>(n, 1.0)));  // at least 1: powers begin with I
-    residuals.push_back(kernels.total_of(residual));
   }
   // Which shows that the spectral radius of the defects is below 1, whatever the columns are.
   const std::optional<std::vector<double>> all_die_out = closed_together(defects(), units);
-  const std::optional<std::vector<double>> of_residual = closed_together(defects(), residuals);
-  if (!all_die_out || !of_residual) {
+  if (!all_die_out || !add_steady(residual, residuals_) || !add_steady(rounding, roundings_)) {
     return false;
   }
   const std::size_t inputs = parts_.front()->inputs.size();
   const std::size_t forms = parts_.front()->forms.size();
   rests_.assign(kernels_.size(), Table(forms, std::vector<double>(inputs)));
-  residuals_.assign(kernels_.size(), std::vector<double>(forms));
-  for (std::size_t part = 0; part < kernels_.size(); ++part) {
-    for (std::size_t form = 0; form < forms; ++form) {
-      residuals_[part][form] = kernels_[part].of_form(form, *of_residual);
-    }
-  }
   for (std::size_t input = 0; input < inputs; ++input) {
     Table totals;
     for (const PhaseKernels& kernels : kernels_) {

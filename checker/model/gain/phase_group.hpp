@@ -42,6 +42,10 @@ class PhaseGroup {
   [[nodiscard]] double of_residual(std::size_t part, std::size_t form) const {
     return residuals_[part][form];
   }
+  /// The amount that a program's rounding adds to a form.
+  [[nodiscard]] double of_rounding(std::size_t part, std::size_t form) const {
+    return roundings_[part][form];
+  }
   /// M p, where p bounds all products of matrices with these deviations from the steady state, by part;
   /// nothing where it is not known.
   [[nodiscard]] std::optional<Table> late_starts(const std::vector<double>& start) const;
@@ -53,10 +57,12 @@ class PhaseGroup {
   struct Widened {
     Table of_matrix;  ///< by how much more the matrix may differ
     std::vector<std::array<std::vector<double>, 2>> column_errors;
-    std::vector<double> residual;
+    std::vector<double> residual, rounding;
   };
   [[nodiscard]] std::optional<Widened> widened(const PhasePart& part) const;
   [[nodiscard]] std::vector<PhaseStage> stages(const std::vector<Widened>& all, std::size_t part) const;
+  /// Adds what comes in at every step, of these sizes, to each form. False where no bound is known.
+  [[nodiscard]] bool add_steady(const std::vector<double>& sizes, Table& of_forms) const;
   [[nodiscard]] bool close(const std::vector<Widened>& all);
   [[nodiscard]] std::vector<const Table*> defects() const;
 
@@ -67,6 +73,7 @@ class PhaseGroup {
   std::vector<PhaseKernels> kernels_;
   std::vector<Table> rests_;  ///< by part, form and input
   Table residuals_;           ///< by part and form
+  Table roundings_;           ///< the same
   bool is_certain_ = false;
 };
 

@@ -51,7 +51,10 @@ std::vector<double> difference_of(const GridFunction& x, const GridFunction& y) 
 }  // namespace
 
 std::optional<PhaseGroup::Widened> PhaseGroup::widened(const PhasePart& part) const {
-  Widened result{Table(part.off.size(), std::vector<double>(part.off.size(), 0.0)), {}, part.residual};
+  Widened result{Table(part.off.size(), std::vector<double>(part.off.size(), 0.0)),
+                 {},
+                 part.residual,
+                 part.rounding.of_step};
   for (const PhaseInput& input : part.inputs) {
     result.column_errors.push_back({input.first.error, input.second.error});
   }
@@ -93,6 +96,7 @@ std::optional<PhaseGroup::Widened> PhaseGroup::widened(const PhasePart& part) co
     }
   }
   add_to(result.residual, product_above(*more, part.residual));
+  add_to(result.rounding, product_above(*more, part.rounding.of_step));
   return result;
 }
 

@@ -162,6 +162,7 @@ class PartCollection {
     part_.matrix_low.assign(n, std::vector<double>(n, HUGE_VAL));
     part_.matrix_high.assign(n, std::vector<double>(n, -HUGE_VAL));
     part_.residual.assign(n, 0.0);
+    part_.rounding.of_step.assign(n, 0.0);
     part_.half_width = cell.tube.half_width;
     for (std::size_t i = 0; i < n; ++i) {
       part_.curve_bend.push_back(upper(bound_of_second_derivative(cell.tube.curve[i], part_.half_width)));
@@ -174,7 +175,10 @@ class PartCollection {
     columns_.resize(structure.channels + structure.inputs.size());
   }
 
-  void add(PhaseRun run) {
+  void add(PhaseRun run, const RoundedProgram* program) {
+    if (program != nullptr) {
+      part_.rounding.raise(rounding_over(*program, run));
+    }
     const std::size_t n = structure_->states;
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
@@ -237,7 +241,8 @@ bool is_known(const PhasePart& part, std::size_t phases, std::size_t states) {
     }
   }
   return are_rows(part.off) && are_rows(part.inverse) && are_rows(part.turned) && are_rows(part.basis_bend) &&
-         are_sizes(part.residual) && are_sizes(part.curve_bend) && part.cells.size() == phases &&
+         are_sizes(part.residual) && are_sizes(part.rounding.of_step) && are_sizes(part.rounding.of_start) &&
+         is_size(part.rounding.of_frequency) && are_sizes(part.curve_bend) && part.cells.size() == phases &&
          std::all_of(part.forms.begin(), part.forms.end(), is_grid) &&
          std::all_of(part.inputs.begin(), part.inputs.end(), [&](const PhaseInput& input) {
            return is_grid(input.first) && (input.second.is_empty() || is_grid(input.second));
@@ -274,11 +279,11 @@ TubePart place_of_part(std::size_t part, std::size_t parts, std::size_t phase, s
 }
 
 PhasePart phase_part(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
-                     std::size_t part, std::size_t phases) {
+                     std::size_t part, std::size_t phases, const RoundedProgram* program) {
   const TubePart whole = place_of_part(part, cell.parts, 0, phases);
   PartCollection collection(structure, cell, whole);
   for (std::size_t g = 0; g < phases; ++g) {
-    collection.add(run_over(structure, model, cell, place_of_part(part, cell.parts, g, phases)));
+    collection.add(run_over(structure, model, cell, place_of_part(part, cell.parts, g, phases)), program);
   }
   PhasePart result = collection.part();
   const Ball width(cell.tube.half_width);

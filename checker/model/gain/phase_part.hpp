@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "checker/model/gain/phase_kernels.hpp"
+#include "checker/model/gain/phase_rounding.hpp"
 #include "checker/model/gain/phase_run.hpp"
 
 namespace veritrack::checker {
@@ -29,6 +30,7 @@ struct PhasePart {
   std::vector<PhaseInput> inputs;  ///< noise, the slew, then those of the structure
   Table inverse;                   ///< sup |P^-1|
   std::vector<double> residual;
+  PhaseRounding rounding;          ///< of a program
   std::vector<double> curve_bend;  ///< sup |d^2 C/d omega^2|
   Table turned;                    ///< sup |P^-1 dP/d omega|
   Table basis_bend;                ///< sup |d^2 P/d omega^2|
@@ -39,9 +41,10 @@ struct PhasePart {
   static constexpr std::size_t kFirstOfRemainders = 2;
 };
 
-/// Part number `part` of a cell, with so many phases. Throws NotCovered where something is not certain.
+/// Part number `part` of a cell, with so many phases, and `program`, if there is one. Throws NotCovered where
+/// something is not certain.
 PhasePart phase_part(const PhaseStructure& structure, const TrackedModel& model, const PhaseCell& cell,
-                     std::size_t part, std::size_t phases);
+                     std::size_t part, std::size_t phases, const RoundedProgram* program);
 
 /// The same with nothing that leans: forms, inputs and matrices are those in the middle of its frequencies,
 /// up to errors.

@@ -144,6 +144,13 @@ RuleResult base_of(const PhaseNode& node, const BallPolynomial& first, const Bal
     case PhaseOperation::product:
       result = {first * second, second, first, {}};
       break;
+    case PhaseOperation::larger: {
+      const DoubleRange difference = range_over_cell(first - second);
+      const double share = difference.low > 0.0 ? 1.0 : difference.high < 0.0 ? 0.0 : 0.5;
+      result = {larger(first, second), BallPolynomial(share), BallPolynomial(1.0 - share), {}};
+      result.range.value = std::max({0.0, difference.low, -difference.high});
+      break;
+    }
     case PhaseOperation::arctangent2: {
       const BallPolynomial square = squared(first) + squared(second);
       const BallPolynomial inverse = reciprocal(square);
@@ -186,6 +193,12 @@ double remainder_size(const PhaseNode& node, const RuleRange& range, double firs
     case PhaseOperation::arctangent2:
       size = remainder_of_angle(range, first, second);
       break;
+    case PhaseOperation::larger: {
+      // Half of both where they may be equal on the curve.
+      const double most = up(first + second);
+      size = range.value > 0.0 ? std::max(0.0, up(most - range.value)) : 0.5 * most;
+      break;
+    }
     case PhaseOperation::within:
       return is_kept(node, range, first) ? 0.0 : kUnbounded;
     case PhaseOperation::sum:

@@ -187,8 +187,11 @@ PhaseRun run_over(const PhaseStructure& structure, const TrackedModel& model, co
   const std::size_t n = structure.states;
   const TubeOver here(cell.tube, part, 0);
   const TubeOver there(cell.tube, part, 1);
-  StepRun step(structure, here, signal_later(model, cell.tube, part));
+  const std::vector<BallPolynomial> signal = signal_later(model, cell.tube, part);
+  StepRun step(structure, here, signal);
   PhaseRun run = std::move(step.run());
+  run.curve = here.curve;
+  run.signal = signal;
   run.bias = step.of(structure.graph.frequency).base - frequency_over(cell.tube, part);
   const TubeOver slope(cell.slope, part, 1);
   const BallPolynomial per_frequency(one / Ball(cell.tube.half_width));

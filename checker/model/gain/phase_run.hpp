@@ -30,6 +30,7 @@ struct PhaseRun {
   PolynomialMatrix inverse;  ///< P^-1 a sample later
   PolynomialMatrix turned;   ///< P^-1 dP/d omega there, at a fixed phase
   BallPolynomial bias;
+  std::vector<BallPolynomial> curve, signal;  ///< by state, by channel
   std::vector<RuleRange> rules;
   /// By form: suprema of the slopes by noise, remainders and inputs, with the numbers of the variables.
   std::vector<std::vector<std::pair<std::size_t, double>>> direct;

@@ -87,7 +87,7 @@ PhaseSolver::PhaseSolver(const PhaseLoopEvidence& evidence, const PhaseGroup& gr
       given_.back().push_back(std::move(sums));
       given_rest_.back().push_back(up(upward_product(group.rest(part, form, PhasePart::kNoise), noise) +
                                       upward_product(group.rest(part, form, PhasePart::kSlew), group.slew()) +
-                                      group.of_residual(part, form)));
+                                      group.of_residual(part, form) + group.of_rounding(part, form)));
       starts_.back().push_back(is_started ? of_start(part, form, 0) : 0.0);
     }
   }
@@ -102,9 +102,24 @@ double PhaseSolver::of_start(std::size_t part, std::size_t form, std::size_t fir
             kernels.of_form(form, (*late_starts_)[part]));
 }
 
+bool PhaseSolver::keeps_room(const PhaseTable& bounds) const {
+  const std::vector<std::size_t>& forms = evidence_->structure.state_forms;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    for (const double bound : bounds[forms[i]]) {
+      if (!(bound < evidence_->program->room[i])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 std::optional<PhaseSolver::Sizes> PhaseSolver::sizes_at(const PhaseTable& bounds) const {
   const PhaseStructure& structure = evidence_->structure;
   const std::size_t phases = group_->phases();
+  if (!keeps_room(bounds)) {
+    return std::nullopt;
+  }
   Sizes sizes;
   Table largest(structure.inputs.size(), std::vector<double>(phases, 0.0));
   for (std::size_t part = 0; part < group_->size(); ++part) {

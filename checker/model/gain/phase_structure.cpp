@@ -20,7 +20,7 @@ Variables united(const Variables& x, const Variables& y) {
   return result;
 }
 
-void find_rules(PhaseStructure& structure) {
+void find_rules(PhaseStructure& structure, bool with_states) {
   const PhaseGraph& graph = structure.graph;
   structure.rule_of.resize(graph.nodes.size());
   std::vector<std::optional<std::size_t>> form_of(graph.nodes.size());
@@ -45,6 +45,14 @@ void find_rules(PhaseStructure& structure) {
     }
     structure.rule_of[node] = structure.rules.size();
     structure.rules.push_back(rule);
+  }
+  if (with_states) {
+    structure.state_forms.resize(structure.states);
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+      if (graph.nodes[node].operation == PhaseOperation::state) {
+        structure.state_forms.at(graph.nodes[node].first) = *form(node);
+      }
+    }
   }
   if (graph.is_number(graph.frequency)) {
     throw NotCovered("the frequency does not depend on the state");
@@ -125,12 +133,12 @@ bool is_gated(const PhaseStructure& structure) {
 
 }  // namespace
 
-PhaseStructure phase_structure(PhaseGraph graph, std::size_t states, std::size_t channels) {
+PhaseStructure phase_structure(PhaseGraph graph, std::size_t states, std::size_t channels, bool with_states) {
   PhaseStructure structure;
   structure.graph = std::move(graph);
   structure.states = states;
   structure.channels = channels;
-  find_rules(structure);
+  find_rules(structure, with_states);
   find_inputs(structure);
   find_slopes(structure);
   if (!is_gated(structure)) {

@@ -25,6 +25,7 @@ struct PhaseStructure {
   std::vector<std::optional<std::size_t>> rule_of;   ///< by node
   std::vector<std::size_t> forms;                    ///< nodes
   std::size_t error_form = 0;                        ///< of the frequency
+  std::vector<std::size_t> state_forms;              ///< by state; none unless they are asked for
   std::vector<std::size_t> inputs;                   ///< the nodes that they are taken in
   std::vector<std::optional<std::size_t>> input_of;  ///< by node
   std::vector<std::vector<std::size_t>> slopes;      ///< by node: the variables that it depends on, in order
@@ -38,6 +39,7 @@ struct PhaseStructure {
 };
 
 /// Throws NotCovered where the method says nothing.
-PhaseStructure phase_structure(PhaseGraph graph, std::size_t states, std::size_t channels);
+/// `with_states`: the states are forms, too.
+PhaseStructure phase_structure(PhaseGraph graph, std::size_t states, std::size_t channels, bool with_states);
 
 }  // namespace veritrack::checker

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -121,6 +122,53 @@ TEST_CASE("runs with the assumed noise and starts, and with the largest noise, s
   }
   CHECK(most > 0.3 * proof.assumed.frequency_error);
   CHECK(reached_late <= proof.assumed.settled_error);
+}
+
+/// What a step may be off; far more than a program.
+constexpr double kOffPhase = 1e-5, kOffFrequency = 1e-6, kOffReport = 1e-5;
+
+TEST_CASE("runs that are off in each step stay within what is claimed of a program that rounds") {
+  const test::Example loop(test::phase_locked_loop(kLoopBandwidth));
+  SetQuestion question = loop_question(loop);
+  std::atomic<bool> are_near = true;
+  question.rounding = [&](const std::vector<Interval>& states,
+                          const Interval& sample) -> std::optional<std::vector<double>> {
+    // The states of the loop: w, and theta, whose range is not asked for.
+    are_near = are_near && states.size() == 2 && rigor::is_subset(Interval(1.0001), states[0]) &&
+               rigor::width(states[0]) < 1.0 && rigor::is_subset(Interval(-1.9), sample);
+    return std::vector<double>{kOffFrequency, kOffPhase, kOffReport};
+  };
+  const rigor::UpwardRounding upward;
+  const PhaseProof proof = prove_by_phase_gains(question, {}).value();
+  CHECK(are_near);
+  REQUIRE(proof.room.size() == 2);
+  CHECK(proof.room[0] < 1.0);
+  CHECK(proof.room[1] == INFINITY);
+  CHECK(proof.starts.ripple > loop_proof().starts.ripple + kOffReport);
+  CHECK(proof.assumed.frequency_error > loop_proof().assumed.frequency_error + kOffReport);
+  test::Random random(941);
+  double most = 0.0;
+  for (std::int64_t trial = 0; trial < test::effort(60); ++trial) {
+    PlainLoop run(random.uniform(kLoopLow, kLoopHigh), random.uniform(-3.0, 3.0));
+    double low = INFINITY;
+    double high = -INFINITY;
+    const double sign = random.below(2) == 0 ? 1.0 : -1.0;
+    for (int k = 0; k < 400; ++k) {
+      run.step(0.0);
+      run.w += sign * kOffFrequency;
+      run.theta += sign * kOffPhase;
+      const double error = run.w - run.omega;
+      most = std::max(most, std::fabs(error) + kOffReport);
+      low = k >= 300 ? std::min(low, error) : low;
+      high = k >= 300 ? std::max(high, error) : high;
+    }
+    REQUIRE(high - low + 2.0 * kOffReport <= proof.starts.ripple);
+    REQUIRE(high + kOffReport <= proof.starts.settled_error);
+    REQUIRE(low - kOffReport >= -proof.starts.settled_error);
+  }
+  CHECK(most > 0.3 * proof.starts.settled_error);
+  question.rounding = [](const auto&, const auto&) { return std::nullopt; };
+  CHECK(prove_by_phase_gains(question, {}).value().room.empty());
 }
 
 TEST_CASE("the first block from which the error is certainly below a target, in samples") {

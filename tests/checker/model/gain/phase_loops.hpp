@@ -96,7 +96,7 @@ struct PhaseLoopOfTest {
     recursion = std::make_unique<checker::ModelRecursion>(checker::read_json(model.dump()));
     objections.clear();
     const checker::TrackedModel tracked{recursion.get(), checker::one, false};
-    return checker::read_phase_gains(checker::read_json(gains.dump()), tracked, design(), objections);
+    return checker::read_phase_gains(checker::read_json(gains.dump()), tracked, design(), {}, objections);
   }
 
   [[nodiscard]] std::string said() const { return objections.empty() ? "" : objections.front(); }

@@ -1,0 +1,23 @@
+// What a program that rounds is off in a step of its recursion, as long as its states stay in ranges.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "analysis/rigor/interval.hpp"
+
+namespace veritrack::model {
+
+/// Bounds on what a program is off in a step, of the states and of the frequency that it reports, for these
+/// ranges of its states and samples; those of angles are not asked for. Empty where no bound is known.
+using RoundingOfStep = std::function<std::optional<std::vector<double>>(
+    const std::vector<rigor::Interval>& states, const rigor::Interval& sample)>;
+
+/// The rounding of a program while its states are near a steady state.
+struct ProgramRounding {
+  std::vector<double> room;  ///< by state: how far it may be from the steady state; infinite for angles
+  RoundingOfStep of_step;    ///< empty: nothing is rounded
+};
+
+}  // namespace veritrack::model

@@ -213,20 +213,22 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   const rigor::UpwardRounding upward;
   const ModelTables& tables = model_tables(certificate.design);
   const Model model = make_model(tables.model, tables.assume.signal);
-  if (const auto& gains = model_sets(certificate).gains) {
+  const ModelSets& sets = model_sets(certificate);
+  if (const auto& gains = sets.gains) {
     const bool is_rounded = gains->rounding.has_value();
-    return design_section(certificate, tables, model) + model_code_section(tables, is_rounded) +
+    return design_section(certificate, tables, model) +
+           model_code_section(tables, is_rounded, sets.no_rounding) +
            model_gains_section(certificate, model, options) + recursion_section(model) +
            gains_coverage_section(tables, is_rounded);
   }
-  const auto& phases = model_sets(certificate).phases;
+  const auto& phases = sets.phases;
   const bool is_rounded = phases && !phases->room.empty();
-  return design_section(certificate, tables, model) + model_code_section(tables, is_rounded) +
-         model_lock_section(certificate) + (phases ? model_phases_section(certificate) : std::string()) +
-         (model_sets(certificate).averages ? model_averages_section(certificate) : std::string()) +
+  return design_section(certificate, tables, model) +
+         model_code_section(tables, is_rounded, sets.no_rounding) + model_lock_section(certificate) +
+         (phases ? model_phases_section(certificate) : std::string()) +
+         (sets.averages ? model_averages_section(certificate) : std::string()) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
-         recursion_section(model) +
-         coverage_section(tables, model_sets(certificate).bounds_covariance, is_rounded);
+         recursion_section(model) + coverage_section(tables, sets.bounds_covariance, is_rounded);
 }
 
 }  // namespace veritrack::certificates

@@ -56,7 +56,7 @@ std::string shown(std::string_view listing) {
 
 }  // namespace
 
-std::string model_code_section(const ModelTables& tables, bool is_rounded) {
+std::string model_code_section(const ModelTables& tables, bool is_rounded, const std::string& no_rounding) {
   if (!tables.model.compiled) {
     return "";
   }
@@ -75,10 +75,9 @@ std::string model_code_section(const ModelTables& tables, bool is_rounded) {
                 "more input "
                 "of the loop (docs/gain-proof.md, section 12). Statements to first order are about exact "
                 "arithmetic, and say so.\n"
-              : "- The statements are about the listing in exact arithmetic. The rounding of single and "
-                "double "
-                "precision is covered for loops that are certified by gains, in one channel over the phases, "
-                "and where a bound is known for every operation.\n") +
+              : fmt::format("- The statements are about the listing in exact arithmetic: the rounding of the "
+                            "program is not in their bounds{}{}.\n",
+                            no_rounding.empty() ? "" : ", because ", no_rounding)) +
          "- That the compiled program does what the listing says is reported, not proved.\n" +
          (has_angles
               ? "- Angles are counted modulo 2π: a constant within 1e-5 of whole turns stands for whole "

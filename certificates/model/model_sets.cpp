@@ -131,10 +131,22 @@ const ModelSets& model_sets(const Certificate& certificate) {
 
 namespace {
 
+std::string words_without_bound(const trackers::code::Listing& listing, int number) {
+  if (number < 0) {
+    return "no bound is known for a wrap";
+  }
+  const trackers::code::Instruction& at = listing.instructions[static_cast<std::size_t>(number)];
+  const trackers::code::OperationName* known = trackers::code::name_of(at.operation);
+  const std::string_view name = known != nullptr ? known->name : "a value";
+  return at.place.file < 0 ? fmt::format("no bound is known for an operation `{}`", name)
+                           : fmt::format("no bound is known for `{}` at {}:{}:{}", name,
+                                         listing.files[static_cast<std::size_t>(at.place.file)],
+                                         at.place.line, at.place.column);
+}
+
 /// What rounding adds to a step of the program of [code].
 model::RoundingOfStep rounding_of(const code::CompiledCode& code) {
-  return [&code](const std::vector<Interval>& states,
-                 const Interval& sample) -> std::optional<std::vector<double>> {
+  return [&code](const std::vector<Interval>& states, const Interval& sample) {
     model::code::StepRanges ranges{states, sample, code.recursion.bases};
     for (std::size_t i = 0; i < states.size(); ++i) {
       const auto angle = code.recursion.ranges.find(code.listing.states[i].input);
@@ -142,9 +154,11 @@ model::RoundingOfStep rounding_of(const code::CompiledCode& code) {
         ranges.states[i] = Interval::from_bounds(angle->second.low, angle->second.high);
       }
     }
-    std::optional<model::code::StepRounding> found = model::code::step_rounding(code.listing, ranges);
+    int without = -1;
+    std::optional<model::code::StepRounding> found =
+        model::code::step_rounding(code.listing, ranges, &without);
     if (!found) {
-      return std::nullopt;
+      throw model::NoRounding(words_without_bound(code.listing, without));
     }
     found->next.push_back(found->frequency);
     return std::move(found->next);

@@ -69,6 +69,9 @@ class Evaluation {
     return is_known ? std::optional(std::move(result)) : std::nullopt;
   }
 
+  /// The first operation that has none, though its operands have; -1 for a wrap.
+  [[nodiscard]] int without_bound() const { return without_bound_; }
+
  private:
   [[nodiscard]] const Instruction& at(int value) const {
     return listing_->instructions[static_cast<std::size_t>(value)];
@@ -94,6 +97,9 @@ class Evaluation {
     Computed result = operation(number);
     if (!(result.error >= 0.0) || !rigor::is_finite(result.exact)) {
       result.error = kInfinity;
+    }
+    if (without_bound_ < 0 && result.error == kInfinity) {
+      without_bound_ = number;
     }
     known_[number] = result;
     return result;
@@ -434,12 +440,18 @@ class Evaluation {
   const StepRanges* ranges_;
   Turns turns_;
   std::map<int, Computed> known_;
+  int without_bound_ = -1;
 };
 
 }  // namespace
 
-std::optional<StepRounding> step_rounding(const Listing& listing, const StepRanges& ranges) {
-  return Evaluation(listing, ranges).all();
+std::optional<StepRounding> step_rounding(const Listing& listing, const StepRanges& ranges, int* without) {
+  Evaluation evaluation(listing, ranges);
+  std::optional<StepRounding> found = evaluation.all();
+  if (!found && without != nullptr) {
+    *without = evaluation.without_bound();
+  }
+  return found;
 }
 
 }  // namespace veritrack::model::code

@@ -37,8 +37,8 @@ inline constexpr double kMostOfWrapped = 3.14;
 /// normal range kept or flushed to 0; sine and cosine in single precision within 1.5 * 2^-24, other functions
 /// of the library within two units in the last place. Empty where no bound is known: an operation without
 /// one, a branch that is not decided and jumps, a division by what may be 0, a result that may overflow.
-/// Needs the upward rounding mode.
+/// `without` gets the first operation that has none. Needs the upward rounding mode.
 [[nodiscard]] std::optional<StepRounding> step_rounding(const trackers::code::Listing& listing,
-                                                        const StepRanges& ranges);
+                                                        const StepRanges& ranges, int* without = nullptr);
 
 }  // namespace veritrack::model::code

@@ -7,24 +7,21 @@ namespace veritrack::model {
 
 using rigor::Interval;
 
-std::optional<LoopRounding> rounding_within(std::vector<double> room, const RoundingOfStep& rounding,
-                                            const TrackerModel& tracker,
-                                            const std::vector<SteadyValue>& steady, const Interval& band) {
+LoopRounding rounding_within(std::vector<double> room, const RoundingOfStep& rounding,
+                             const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
+                             const Interval& band) {
   std::vector<Interval> states;
   for (std::size_t i = 0; i < steady.size(); ++i) {
     const SteadyValue& each = steady[i];
     if (each.imaginary || (each.turns != 0 && !tracker.recursion->is_angle[i])) {
-      return std::nullopt;
+      throw NoRounding("it keeps vectors or phases in states that are no angles");
     }
     states.push_back(Interval(each.constant) + Interval(each.per_frequency) * band +
                      Interval::from_bounds(-room[i], room[i]));
   }
   const double most = 2.0 * tracker.amplitude.upper();
-  const auto found = rounding(states, Interval::from_bounds(-most, most));
-  if (!found || found->size() != steady.size() + 1) {
-    return std::nullopt;
-  }
-  LoopRounding result{std::move(room), *found, found->back()};
+  std::vector<double> found = rounding(states, Interval::from_bounds(-most, most));
+  LoopRounding result{std::move(room), found, found.back()};
   result.next.pop_back();
   return result;
 }

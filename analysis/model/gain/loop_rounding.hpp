@@ -1,7 +1,6 @@
 // What rounding adds to a loop: an input to each state at each sample, as long as the states stay in ranges.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "analysis/model/gain/loop_network.hpp"
@@ -18,13 +17,11 @@ struct LoopRounding {
 };
 
 /// The rounding of a step while no state is further than `room` from the steady state, at the frequencies of
-/// the band and with noise below the amplitude. Empty where no bound is known. Needs the upward rounding
-/// mode.
-[[nodiscard]] std::optional<LoopRounding> rounding_within(std::vector<double> room,
-                                                          const RoundingOfStep& rounding,
-                                                          const TrackerModel& tracker,
-                                                          const std::vector<SteadyValue>& steady,
-                                                          const rigor::Interval& band);
+/// the band and with noise below the amplitude. Throws NoRounding. Needs the upward rounding mode.
+[[nodiscard]] LoopRounding rounding_within(std::vector<double> room, const RoundingOfStep& rounding,
+                                           const TrackerModel& tracker,
+                                           const std::vector<SteadyValue>& steady,
+                                           const rigor::Interval& band);
 
 /// Adds an input to each state, forms that are the states, and the limits to their room.
 void add_rounding(LoopNetwork& network, const LoopRounding& rounding);

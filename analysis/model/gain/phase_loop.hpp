@@ -34,8 +34,8 @@ class PhaseLoop {
   [[nodiscard]] const std::vector<FloquetCell>& cells() const { return cells_; }
   [[nodiscard]] const PhaseGridding& gridding() const { return gridding_; }
 
-  /// With the rounding of the tracker's program from now on. Throws NoFrame where no bound of it is known.
-  /// False where errors may not decay.
+  /// With the rounding of the tracker's program from now on. Throws NoRounding. False where errors may not
+  /// decay.
   bool round(ProgramRounding rounding);
 
   /// At a constant frequency: the bounds of some part of the frequencies, for a search.

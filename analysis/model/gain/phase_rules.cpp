@@ -285,6 +285,22 @@ PhaseValue PhaseRules::larger(int first, int second, const PhaseValue& x, const 
   return result;
 }
 
+PhaseValue PhaseRules::chosen(int place, const PhaseValue& positive, const PhaseValue& a,
+                              const PhaseValue& b) {
+  const Interval base = range_of(positive.base);
+  const double distance = rigor::mignitude(base);
+  if (!(distance > 0.0)) {
+    throw NoFrame("a condition that may turn in the steady state");
+  }
+  PhaseValue result = base.lower() > 0.0 ? a : b;
+  if (const auto form = possible_form(place, positive)) {
+    add_remainder(result, [form = *form, distance](const std::vector<double>& bounds) {
+      return bounds[form] < distance ? 0.0 : kInfinity;
+    });
+  }
+  return result;
+}
+
 PhaseValue PhaseRules::within(int place, const PhaseValue& x, const PhaseValue& low, const PhaseValue& high) {
   if (!low.slopes.empty() || !high.slopes.empty()) {
     throw NoFrame("limits that are not constant");
@@ -360,6 +376,10 @@ PhaseValue PhaseRules::value_of(const Instruction& each, const std::vector<Phase
     case Operation::absolute:
     case Operation::clamp:
       return by_larger(each, registers);
+    case Operation::sign:
+      return chosen(each.first, x, {BallModel(1.0), {}}, {BallModel(-1.0), {}});
+    case Operation::choose:
+      return chosen(each.first, x, operand(each.second), operand(each.third));
     case Operation::stays_within:
       return within(each.first, x, operand(each.second), operand(each.third));
     default:

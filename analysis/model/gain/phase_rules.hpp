@@ -34,6 +34,7 @@ class PhaseRules {
   PhaseValue function(trackers::Operation operation, int exponent, int place, const PhaseValue& x);
   PhaseValue angle(int first, int second, const PhaseValue& y, const PhaseValue& x);
   PhaseValue larger(int first, int second, const PhaseValue& x, const PhaseValue& z);
+  PhaseValue chosen(int place, const PhaseValue& positive, const PhaseValue& a, const PhaseValue& b);
   /// Minimum, absolute value, clamp.
   PhaseValue by_larger(const trackers::Instruction& each, const std::vector<PhaseValue>& registers);
   PhaseValue within(int place, const PhaseValue& x, const PhaseValue& low, const PhaseValue& high);

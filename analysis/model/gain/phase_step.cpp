@@ -32,9 +32,6 @@ class PhaseRun {
   /// The results of a program. `has_gates`: of the step.
   std::vector<PhaseValue> run(const trackers::StraightLineProgram& program, std::vector<PhaseValue> registers,
                               bool has_gates) {
-    if (!program.limits().empty()) {
-      throw NoFrame("a limit beside the results");
-    }
     const std::vector<int> gates = has_gates ? gates_of(program) : std::vector<int>();
     std::map<int, int> gate_of_input;
     for (const Instruction& each : program.instructions()) {
@@ -51,6 +48,11 @@ class PhaseRun {
       if (gate == place) {
         close(registers.back(), place, gate_of_input);
       }
+    }
+    for (const int limit : program.limits()) {
+      // Their remainders come into nothing else: into a form of their own they come, and are 0 there, or
+      // infinite.
+      rules_.form_of(registers[static_cast<std::size_t>(limit)]);
     }
     std::vector<PhaseValue> results;
     for (const int result : program.results()) {
@@ -236,11 +238,7 @@ void add_rounding(const TrackerModel& tracker, const std::vector<PhaseValue>& st
     return;
   }
   const double most = 2.0 * tracker.amplitude.upper();
-  auto found = program.of_step(ranges, Interval::from_bounds(-most, most));
-  if (!found || found->size() != step.rounding.size()) {
-    throw NoFrame("no bound of the rounding of its program is known");
-  }
-  step.rounding = *std::move(found);
+  step.rounding = program.of_step(ranges, Interval::from_bounds(-most, most));
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ struct PhaseStep {
 };
 
 /// Over a part of the cell's phases and frequencies. The structure is the same for all parts. Throws NoFrame
-/// where the rules do not cover the step. Needs the upward rounding mode and a scope of ball models without
-/// vectors.
+/// where the rules do not cover the step, and NoRounding. Needs the upward rounding mode and a scope of ball
+/// models without vectors.
 [[nodiscard]] PhaseStep phase_step(const TrackerModel& tracker, const FloquetCell& cell,
                                    const TubeCell& part);
 

@@ -192,21 +192,20 @@ ProvedSets unstable(GainProof proof) {
 }
 
 /// The rounding of the program while its states are as far from the steady state as they come without it, and
-/// half as far again. Empty where no bound is known.
-std::optional<LoopRounding> rounding_of(const SetQuestion& question, const FoundLoop& found,
-                                        const GainBounds& gains, const ProvedSets& sets,
-                                        const LoopDisturbance& assumed) {
+/// half as far again. Throws NoRounding.
+LoopRounding rounding_of(const SetQuestion& question, const FoundLoop& found, const GainBounds& gains,
+                         const ProvedSets& sets, const LoopDisturbance& assumed) {
   constexpr double kSpare = 1.5;
   const std::size_t n = found.steady.size();
   if (gains.network().has_ripples) {
-    return std::nullopt;  // of one channel the checker does not know it
+    throw NoRounding("in one channel it is known over the phases");
   }
   LoopNetwork network = gains.network();
   add_rounding(network, {std::vector<double>(n, INFINITY), std::vector<double>(n, 0.0), 0.0});
   const std::optional<GainBounds> probe =
       GainBounds::make(std::move(network), gains.samples(), gains.blocks());
   if (!probe) {
-    return std::nullopt;
+    throw NoRounding("errors of its states may not decay");
   }
   std::vector<LoopDisturbance> worst{assumed};
   if (sets.noise && sets.noise->is_proved()) {
@@ -316,17 +315,19 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, NoGains* r
     }
     std::optional<LoopRounding> rounding;
     if (question.rounding) {
-      rounding = rounding_of(question, *found, *gains, sets, assumed);
-    }
-    if (rounding) {
-      LoopNetwork network = gains->network();
-      add_rounding(network, *rounding);
-      std::optional<GainBounds> rounded = GainBounds::make(std::move(network), *samples, kBlocks);
-      if (rounded && rounded->bounds({})) {
+      try {
+        rounding = rounding_of(question, *found, *gains, sets, assumed);
+        LoopNetwork network = gains->network();
+        add_rounding(network, *rounding);
+        std::optional<GainBounds> rounded = GainBounds::make(std::move(network), *samples, kBlocks);
+        if (!rounded || !rounded->bounds({})) {
+          throw NoRounding("its bounds do not close with it");
+        }
         gains = std::move(rounded);
         sets = GainSets(question, *gains, half_distance).all();
-      } else {
+      } catch (const NoRounding& missed) {
         rounding.reset();
+        sets.no_rounding = missed.what();
       }
     }
     sets.gains = GainProof{found->steady, radius, *gains, assumed, gains->bounds(assumed), rounding};

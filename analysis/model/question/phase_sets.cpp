@@ -43,6 +43,27 @@ class PhaseSets {
     return find_sizes() ? std::optional(proof()) : std::nullopt;
   }
 
+  /// The bounds of some part alone, from which room() follows. False where none close without noise.
+  [[nodiscard]] bool look() {
+    const PhaseGains& probe = loop_->probe();
+    still_ = probe.errors({});
+    if (!still_) {
+      return false;
+    }
+    closes_for_assumed_ = probe.errors({question_->noise, 0.0, {}}).has_value();
+    if (closes_for_assumed_) {
+      find_joint();
+    }
+    find_largest();
+    OfPart part;
+    (void)find_part(probe, part);
+    assumed_ = assumed_ ? assumed_ : part.assumed;
+    from_starts_ = from_starts_ ? from_starts_ : part.from_starts;
+    at_noise_ = part.at_noise;
+    at_reach_ = part.at_reach;
+    return true;
+  }
+
   /// Whether the deadline was over before all parts had their bounds.
   [[nodiscard]] bool was_stopped() const { return was_stopped_; }
 
@@ -158,8 +179,8 @@ class PhaseSets {
     }
   }
 
-  /// At a constant frequency. False where some part has no bounds.
-  bool find_sizes() {
+  /// Noise and reach of some part.
+  void find_largest() {
     const PhaseGains& probe = loop_->probe();
     constexpr int kSteps = 7;
     if (question_->largest_noise) {
@@ -173,6 +194,11 @@ class PhaseSets {
     }
     probed_reach_ = largest_with(
         half_distance_, [&](double error) { return is_lock(from_error(probe, error)); }, kSteps);
+  }
+
+  /// At a constant frequency. False where some part has no bounds.
+  bool find_sizes() {
+    find_largest();
     std::vector<OfPart> parts(loop_->parts());
     const bool is_done = loop_->for_each_part([&](std::size_t number, const PhaseGains& gains) {
       if (question_->deadline.is_over()) {
@@ -248,6 +274,7 @@ class PhaseSets {
                      set_of(kStarts, {}, still_),
                      {},
                      {},
+                     {},
                      {}};
     ProvedSet& starts = proof.starts;
     const double width = with_room(still_->ripple);
@@ -289,24 +316,24 @@ class PhaseSets {
   double noise_ = 0.0, reach_ = 0.0;
 };
 
-/// The same of the program that runs; empty where its bounds do not close, or no bound of its rounding is
-/// known.
-std::optional<PhaseProof> rounded_proof(const SetQuestion& question, PhaseLoop& loop, const PhaseSets& exact,
-                                        double half_distance, KnownLimits known) {
+/// The same of the program that runs. Throws NoRounding.
+PhaseProof rounded_proof(const SetQuestion& question, PhaseLoop& loop, double half_distance,
+                         KnownLimits known) {
+  PhaseSets exact(question, loop, half_distance, known);
+  if (!exact.look()) {
+    throw NoRounding("its bounds do not close");
+  }
   std::vector<double> room = exact.room();
-  try {
-    if (!loop.round({room, question.rounding})) {
-      return std::nullopt;
-    }
-  } catch (const NoFrame&) {
-    return std::nullopt;
+  if (!loop.round({room, question.rounding})) {
+    throw NoRounding("errors of its states may not decay");
   }
   PhaseSets sets(question, loop, half_distance, known, &exact);
   std::optional<PhaseProof> proof = sets.all();
-  if (proof) {
-    proof->room = std::move(room);
+  if (!proof) {
+    throw NoRounding(sets.was_stopped() ? "time was over" : "its bounds do not close with it");
   }
-  return proof;
+  proof->room = std::move(room);
+  return *std::move(proof);
 }
 
 }  // namespace
@@ -342,14 +369,22 @@ std::optional<PhaseProof> prove_by_phase_gains(const SetQuestion& question, Know
         std::vector<double>(static_cast<std::size_t>(question.tracker.recursion->states), INFINITY), {}};
     TrackerModel tracker = question.tracker;
     tracker.rounding = question.rounding ? &none : nullptr;
-    PhaseLoop loop = PhaseLoop::make(tracker, question.tone, band, question.slew > 0.0, question.deadline);
+    const PhaseLoop loop =
+        PhaseLoop::make(tracker, question.tone, band, question.slew > 0.0, question.deadline);
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
+    std::string no_rounding;
+    if (question.rounding) {
+      try {
+        PhaseLoop rounded = loop;
+        return rounded_proof(question, rounded, half_distance, known);
+      } catch (const NoRounding& missed) {
+        no_rounding = missed.what();
+      }
+    }
     PhaseSets sets(question, loop, half_distance, known);
     auto proof = sets.all();
-    if (proof && question.rounding) {
-      if (auto rounded = rounded_proof(question, loop, sets, half_distance, known)) {
-        return rounded;
-      }
+    if (proof) {
+      proof->no_rounding = std::move(no_rounding);
     }
     return proof                ? std::move(proof)
            : sets.was_stopped() ? nothing(NoGains::Kind::time, "the bounds of its errors were found")

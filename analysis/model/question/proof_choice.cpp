@@ -141,13 +141,18 @@ FirstProof prove_by_gains_first(const SetQuestion& question) {
 ChosenProof choose_proof(const SetQuestion& question, std::optional<ProvedSets> by_gains,
                          const SetProgress& progress) {
   ChosenProof chosen;
+  std::string no_rounding;
   if (question.rounding) {
-    if (auto phases = prove_by_phase_gains(question, {}, nullptr); phases && decides_for_program(*phases)) {
+    NoGains reason;
+    auto phases = prove_by_phase_gains(question, {}, &reason);
+    if (phases && decides_for_program(*phases)) {
       chosen.sets = without_tubes(question, *std::move(phases));
       return chosen;
     }
+    no_rounding = phases ? phases->no_rounding : reason.detail;
   }
   chosen.sets = prove_sets(question, progress);
+  chosen.sets.no_rounding = std::move(no_rounding);
   const bool is_one_channel = question.tracker.recursion->samples == 1;
   // With two channels gains prove something even where they do not decide.
   if (by_gains && !chosen.sets.deciding().is_proved() &&

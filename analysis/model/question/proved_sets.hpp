@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/linear/stability.hpp"
@@ -32,6 +33,7 @@ struct PhaseProof {
   ProvedSet starts, assumed;  ///< as those of ProvedSets
   std::optional<ProvedSet> noise;
   std::vector<double> room;  ///< of the states of a program that rounds; empty: exact arithmetic
+  std::string no_rounding;   ///< why, where a program rounds
 };
 
 /// Beside tubes: of a loop of one channel whose ripple is averaged. Its bounds in the long run are mostly
@@ -63,6 +65,8 @@ struct ProvedSets {
   std::optional<GainProof> gains = {};         ///< the proof, where it is by gains
   std::optional<PhaseProof> phases = {};       ///< by gains that depend on the phase; beside the other sets
   std::optional<AveragesProof> averages = {};  ///< beside the other sets, too
+  /// Why the rounding of the program is not in the bounds; empty where it is, or there is no program.
+  std::string no_rounding = {};
   /// The set for what is assumed.
   [[nodiscard]] const ProvedSet& deciding() const { return assumed ? *assumed : starts; }
   /// The one with the better bounds for what is assumed, by whatever proof.

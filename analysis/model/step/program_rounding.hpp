@@ -2,17 +2,23 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "analysis/rigor/interval.hpp"
 
 namespace veritrack::model {
 
+/// No bound is known; what() says of what.
+class NoRounding : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Bounds on what a program is off in a step, of the states and of the frequency that it reports, for these
-/// ranges of its states and samples; those of angles are not asked for. Empty where no bound is known.
-using RoundingOfStep = std::function<std::optional<std::vector<double>>(
-    const std::vector<rigor::Interval>& states, const rigor::Interval& sample)>;
+/// ranges of its states and samples; those of angles are not asked for. Throws NoRounding.
+using RoundingOfStep = std::function<std::vector<double>(const std::vector<rigor::Interval>& states,
+                                                         const rigor::Interval& sample)>;
 
 /// The rounding of a program while its states are near a steady state.
 struct ProgramRounding {

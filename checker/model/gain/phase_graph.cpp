@@ -154,13 +154,16 @@ Recorded clamped(const Recorded& x, const Recorded& low, const Recorded& high) {
   return x.is_number() ? Recorded(clamped(x.number(), low.number(), high.number()))
                        : -larger(-larger(x, low), -high);
 }
+Recorded above_zero(const Recorded& x) {
+  return function_of(PhaseOperation::above, x, [](const Ball& b) { return chosen(b, Ball(1.0), Ball(0.0)); });
+}
 Recorded chosen(const Recorded& positive, const Recorded& a, const Recorded& b) {
   return positive.is_number() && are_numbers(a, b)
              ? Recorded(chosen(positive.number(), a.number(), b.number()))
-             : (refuse("if"), a);
+             : b + above_zero(positive) * (a - b);
 }
 Recorded sign_of(const Recorded& x) {
-  return x.is_number() ? Recorded(sign_of(x.number())) : (refuse("sign"), x);
+  return x.is_number() ? Recorded(sign_of(x.number())) : Recorded(-1.0) + Recorded(2.0) * above_zero(x);
 }
 
 }  // namespace

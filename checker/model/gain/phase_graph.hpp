@@ -20,6 +20,7 @@ enum class PhaseOperation {
   product,
   reciprocal,
   larger,
+  above,  ///< 1 where it is above 0, and 0 where it is below
   within,
   arctangent2,
   sine,

@@ -34,6 +34,8 @@ double near_value(const PhaseNode& node, const std::vector<double>& values, cons
       return 1.0 / x;
     case PhaseOperation::larger:
       return std::max(x, y);
+    case PhaseOperation::above:
+      return x > 0.0 ? 1.0 : 0.0;
     case PhaseOperation::within:
       return x;
     case PhaseOperation::arctangent2:

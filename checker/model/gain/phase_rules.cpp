@@ -19,6 +19,12 @@ BallPolynomial squared(const BallPolynomial& x) {
 RuleResult result_of_function(const PhaseNode& node, const BallPolynomial& x) {
   const BallPolynomial unit(1.0);
   switch (node.operation) {
+    case PhaseOperation::above: {
+      const DoubleRange range = range_over_cell(x);
+      const bool is_known = range.low > 0.0 || range.high < 0.0;
+      return {
+          is_known ? BallPolynomial(range.low > 0.0 ? 1.0 : 0.0) : BallPolynomial::everything(), {}, {}, {}};
+    }
     case PhaseOperation::reciprocal: {
       const BallPolynomial inverse = reciprocal(x);
       return {inverse, -squared(inverse), {}, {}};
@@ -199,6 +205,8 @@ double remainder_size(const PhaseNode& node, const RuleRange& range, double firs
       size = range.value > 0.0 ? std::max(0.0, up(most - range.value)) : 0.5 * most;
       break;
     }
+    case PhaseOperation::above:
+      return first < range.low || first < -range.high ? 0.0 : kUnbounded;
     case PhaseOperation::within:
       return is_kept(node, range, first) ? 0.0 : kUnbounded;
     case PhaseOperation::sum:

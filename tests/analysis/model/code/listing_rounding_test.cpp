@@ -108,7 +108,11 @@ TEST_CASE("a branch that jumps and is not decided has no bound, and one that is 
     return made.listing;
   };
   const StepRanges ranges{{Interval::from_bounds(0.2, 0.5)}, Interval::from_bounds(-0.1, 0.1), {}};
-  CHECK_FALSE(step_rounding(with_reset(0.3), ranges).has_value());
+  int without = -1;
+  const Listing jumping = with_reset(0.3);
+  CHECK_FALSE(step_rounding(jumping, ranges, &without).has_value());
+  REQUIRE(without >= 0);
+  CHECK(jumping.instructions[static_cast<std::size_t>(without)].operation == Operation::select);
   const auto idle = step_rounding(with_reset(1.0), ranges);
   REQUIRE(idle.has_value());
   CHECK(idle->next[0] <= 0x1p-24);

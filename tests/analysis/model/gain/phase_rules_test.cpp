@@ -148,7 +148,12 @@ TEST_CASE("where an operation may not be defined its remainder has no bound") {
   CHECK(size_for(limited, {-0.5, -1.0, 1.0}, {0.51, 0.0, 0.0}) == INFINITY);
   CHECK(size_for(limited, {1.5, -1.0, 1.0}, {0.0, 0.0, 0.0}) == INFINITY);
   CHECK_THROWS_AS((void)size_for(limited, {0.5, -1.0, 1.0}, {0.1, 0.1, 0.0}), NoFrame);
-  CHECK_THROWS_AS((void)size_for(of(Operation::sign), {0.5}, {0.1}), NoFrame);
+  const Instruction chosen{Operation::choose, 0, 1, 2, 0};
+  CHECK(size_for(chosen, {0.5, -1.0, 1.0}, {0.49, 0.0, 0.0}) == 0.0);
+  CHECK(size_for(chosen, {-0.5, -1.0, 1.0}, {0.5, 0.0, 0.0}) == INFINITY);
+  CHECK_THROWS_AS((void)size_for(chosen, {0.0, -1.0, 1.0}, {0.1, 0.0, 0.0}), NoFrame);
+  CHECK(size_for(of(Operation::sign), {-0.5}, {0.4}) == 0.0);
+  CHECK(size_for(of(Operation::sign), {0.5}, {0.6}) == INFINITY);
   const Instruction clamped{Operation::clamp, 0, 1, 2, 0};
   CHECK_THROWS_AS((void)size_for(clamped, {0.5, 1.0, -1.0}, {0.1, 0.0, 0.0}), NoFrame);  // not in order
   CHECK_THROWS_AS((void)size_for(clamped, {0.5, -1.0, 1.0}, {0.1, 0.1, 0.0}), NoFrame);

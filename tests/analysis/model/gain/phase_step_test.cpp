@@ -178,7 +178,7 @@ TEST_CASE("the last form is the frequency error, and its state is known where th
   }
 }
 
-TEST_CASE("a limit beside the results is not covered") {
+TEST_CASE("a limit beside the results is a condition on a form of its own") {
   const test::Example loop(test::phase_locked_loop(0.02));
   const auto cell = propose_floquet_cell(test::tone_of(loop.tracker), FloquetGauge::by_mode, 0.29, 0.31);
   REQUIRE(cell);
@@ -187,7 +187,23 @@ TEST_CASE("a limit beside the results is not covered") {
   TrackerModel tracker = loop.model;
   tracker.recursion = &changed;
   const rigor::BallModelScope scope(0, 0);
-  CHECK_THROWS_AS((void)phase_step(tracker, *cell, {0.125, 0.125, 0.0, 1.0}), NoFrame);
+  const TubeCell place{0.125, 0.125, 0.0, 1.0};
+  const PhaseStep without = phase_step(loop.model, *cell, place);
+  const PhaseStep step = phase_step(tracker, *cell, place);
+  CHECK(step.columns.size() == without.columns.size());
+  REQUIRE(step.forms.size() > without.forms.size());
+  const auto is_kept = [&](double bound) {
+    const std::vector<double> bounds(step.forms.size(), bound);
+    bool all = true;
+    for (const PhaseForm& form : step.forms) {
+      for (const DirectWeight& each : form.direct) {
+        const PhaseInput& input = step.inputs[static_cast<std::size_t>(each.input)];
+        all = all && !(input.size && each.weight > 0.0 && input.size(bounds) == INFINITY);
+      }
+    }
+    return all;
+  };
+  CHECK_FALSE(is_kept(1e3));
 }
 
 }  // namespace veritrack::model

@@ -131,8 +131,7 @@ TEST_CASE("runs that are off in each step stay within what is claimed of a progr
   const test::Example loop(test::phase_locked_loop(kLoopBandwidth));
   SetQuestion question = loop_question(loop);
   std::atomic<bool> are_near = true;
-  question.rounding = [&](const std::vector<Interval>& states,
-                          const Interval& sample) -> std::optional<std::vector<double>> {
+  question.rounding = [&](const std::vector<Interval>& states, const Interval& sample) {
     // The states of the loop: w, and theta, whose range is not asked for.
     are_near = are_near && states.size() == 2 && rigor::is_subset(Interval(1.0001), states[0]) &&
                rigor::width(states[0]) < 1.0 && rigor::is_subset(Interval(-1.9), sample);
@@ -167,8 +166,12 @@ TEST_CASE("runs that are off in each step stay within what is claimed of a progr
     REQUIRE(low - kOffReport >= -proof.starts.settled_error);
   }
   CHECK(most > 0.3 * proof.starts.settled_error);
-  question.rounding = [](const auto&, const auto&) { return std::nullopt; };
-  CHECK(prove_by_phase_gains(question, {}).value().room.empty());
+  question.rounding = [](const auto&, const auto&) -> std::vector<double> {
+    throw NoRounding("no bound for this");
+  };
+  const PhaseProof exact = prove_by_phase_gains(question, {}).value();
+  CHECK(exact.room.empty());
+  CHECK(exact.no_rounding == "no bound for this");
 }
 
 TEST_CASE("the first block from which the error is certainly below a target, in samples") {

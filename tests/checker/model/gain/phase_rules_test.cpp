@@ -148,6 +148,14 @@ TEST_CASE("A rule whose condition is not certain has no bound") {
   CHECK(size(PhaseOperation::within, 0.5, 0.4) == 0.0);
   CHECK(std::isinf(size(PhaseOperation::within, 0.5, 0.5)));
   CHECK(std::isinf(size(PhaseOperation::within, -0.5, 0.6)));
+  CHECK(size(PhaseOperation::above, 0.5, 0.4) == 0.0);
+  CHECK(size(PhaseOperation::above, -0.5, 0.4) == 0.0);
+  CHECK(std::isinf(size(PhaseOperation::above, 0.5, 0.5)));
+  CHECK(std::isinf(size(PhaseOperation::above, -0.5, 0.6)));
+  const PhaseNode above{PhaseOperation::above, 0, 0, {}, {}};
+  CHECK(base_of(above, BallPolynomial(0.5), {}).base.constant() == 1.0);
+  CHECK(base_of(above, BallPolynomial(-0.5), {}).base.constant() == 0.0);
+  CHECK_FALSE(base_of(above, BallPolynomial::affine(0.1, 0.2, 0.0, 0.0), {}).base.known());
   for (const double bad : {std::nan(""), HUGE_VAL, -1.0}) {
     CHECK(std::isinf(size(PhaseOperation::sine, 0.5, bad)));
     CHECK(std::isinf(size(PhaseOperation::within, 0.5, bad)));
@@ -205,8 +213,8 @@ TEST_CASE("Gates are the last values through which everything passes") {
 }
 
 TEST_CASE("What no rule is about is not covered") {
-  for (const std::string step : {"a' = clamp(a, 0, y)\n", "a' = sign(a)*y\n", "a' = if(a > y, 1, 2)*y\n",
-                                 "a' = stays_within(a, 0, y)\n"}) {
+  for (const std::string step :
+       {"a' = clamp(a, 0, y)\n", "a' = clamp(a, 1, 0)\n", "a' = stays_within(a, 0, y)\n"}) {
     CAPTURE(step);
     CHECK_THROWS_AS(graph_of(step, {"a"}), NotCovered);
   }

@@ -66,6 +66,7 @@ std::vector<std::string> arguments_for(const CodeTable& code, const fs::path& pa
                                      "-"};
   if (is_cpp(path)) {
     arguments.emplace_back("-fno-access-control");
+    arguments.emplace_back("-std=gnu++17");  // what GCC 11 and later begin with
   }
   // No name of a folder of this machine in what is written.
   arguments.push_back(fmt::format("-fdebug-prefix-map={}/=", folder.string()));

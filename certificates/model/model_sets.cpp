@@ -139,9 +139,8 @@ std::string words_without_bound(const trackers::code::Listing& listing, int numb
   const trackers::code::OperationName* known = trackers::code::name_of(at.operation);
   const std::string_view name = known != nullptr ? known->name : "a value";
   return at.place.file < 0 ? fmt::format("no bound is known for an operation `{}`", name)
-                           : fmt::format("no bound is known for `{}` at {}:{}:{}", name,
-                                         listing.files[static_cast<std::size_t>(at.place.file)],
-                                         at.place.line, at.place.column);
+                           : fmt::format("no bound is known for `{}` in line {} of {}", name, at.place.line,
+                                         listing.files[static_cast<std::size_t>(at.place.file)]);
 }
 
 /// What rounding adds to a step of the program of [code].

@@ -260,11 +260,18 @@ class StepErrors {
       }
       return std::nullopt;
     }
-    if (!test.is("and") && !test.is("or") && !test.is("xor")) {
+    const bool is_choice = test.is("select");
+    if (!is_choice && !test.is("and") && !test.is("or") && !test.is("xor")) {
       return std::nullopt;
     }
     const std::optional<bool> a = decided(test.operands[0]);
+    if (is_choice && a) {
+      return decided(test.operands[*a ? 1 : 2]);
+    }
     const std::optional<bool> b = decided(test.operands[1]);
+    if (is_choice) {
+      return b == decided(test.operands[2]) ? b : std::nullopt;
+    }
     if (test.is("xor")) {
       return a && b ? std::optional(*a != *b) : std::nullopt;
     }

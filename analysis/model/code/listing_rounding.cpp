@@ -336,9 +336,16 @@ class Evaluation {
       return is_number;
     }
     const Instruction& instruction = at(condition);
-    const auto& [a, b, unused] = instruction.operands;
+    const auto& [a, b, c] = instruction.operands;
     if (instruction.operation == Operation::constant) {
       return instruction.bits != 0;
+    }
+    if (instruction.operation == Operation::select) {
+      if (const std::optional<bool> takes_first = decided(a)) {
+        return decided(*takes_first ? b : c);
+      }
+      const std::optional<bool> first = decided(b);
+      return first == decided(c) ? first : std::nullopt;
     }
     if (instruction.operation == Operation::fcmp) {
       const Interval first = around(value(a));

@@ -66,6 +66,13 @@ TEST_CASE(
   CHECK(bound("r2 = fdiv.f32 r1 r0\n", "r2") < 0.0);
   CHECK(bound("r2 = fcmp.ogt.f32 r0 f32:0x1p-1\nr3 = select.f32 r2 f32:0x0p+0 r0\n", "r3") < 0.0);
   CHECK(bound("r2 = fcmp.ogt.f32 r0 f32:0x1p+1\nr3 = select.f32 r2 f32:0x0p+0 r0\n", "r3") > 0.0);
+  // This or that, as a choice of bits: w may be above 0.25, and is below 1.
+  const std::string either =
+      "r2 = fcmp.ogt.f32 r0 f32:0x1p+1\nr3 = fcmp.ogt.f32 r1 f32:0x1p-2\nr4 = fcmp.ogt.f32 r1 f32:0x1p+0\n";
+  CHECK(bound(either + "r5 = select.i1 r2 i1:1 r4\nr6 = select.f32 r5 f32:0x0p+0 r0\n", "r6") > 0.0);
+  CHECK(bound(either + "r5 = select.i1 r2 i1:1 r3\nr6 = select.f32 r5 f32:0x0p+0 r0\n", "r6") < 0.0);
+  CHECK(bound(either + "r5 = select.i1 r3 r2 r4\nr6 = select.f32 r5 f32:0x0p+0 r0\n", "r6") > 0.0);
+  CHECK(bound(either + "r5 = select.i1 r3 i1:1 i1:0\nr6 = select.f32 r5 f32:0x0p+0 r0\n", "r6") < 0.0);
   CHECK(bound("r2 = fmul.f32 r0 f32:0x1p+127\nr3 = fmul.f32 r2 f32:0x1p-127\n", "r3") < 0.0);
   CHECK(bound("r2 = floor.f32 r0\n", "r2") < 0.0);
   CHECK(bound("r2 = sqrt.f32 r0\n", "r2") < 0.0);

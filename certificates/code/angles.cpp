@@ -20,6 +20,27 @@ Angles::Angles(const trackers::code::Listing& listing, model::code::Turns& turns
 
 /// The ranges that the program keeps its angles in, for steps of up to half a turn.
 void Angles::find_ranges() {
+  for (const Steps direction : {Steps::either_way, Steps::forward, Steps::backward}) {
+    direction_ = direction;
+    if (keeps_ranges()) {
+      return;
+    }
+  }
+  const auto& states = listing_->states;
+  const auto angle = std::find_if(states.begin(), states.end(),
+                                  [&](const auto& state) { return is_angle_.at(state.input); });
+  throw NoRecursion(
+      fmt::format("the wraps do not keep {0} in a range, for steps of up to half a turn; allowed: "
+                  "e.g. if ({0} > PI) {0} -= 2*PI; else if ({0} < -PI) {0} += 2*PI",
+                  angle->name),
+      at(angle->next).place);
+}
+
+/// From where they start on.
+bool Angles::keeps_ranges() {
+  ranges_.clear();
+  bases_.clear();
+  steps_.clear();
   for (const trackers::code::State& state : listing_->states) {
     is_angle_[state.input] = turns_->is_wrapped(state.next);
     if (is_angle_[state.input]) {
@@ -30,10 +51,10 @@ void Angles::find_ranges() {
   constexpr int kMostRounds = 8;
   for (int round = 0; round < kMostRounds; ++round) {
     if (!widen_ranges()) {
-      return;
+      return true;
     }
   }
-  throw NoRecursion("an angle is not kept in a range by its wraps, for steps of up to half a turn", {});
+  return false;
 }
 
 /// One step further; true when a range has grown.
@@ -126,8 +147,9 @@ std::optional<Range> Angles::range(int value) {
     if (!before) {
       return std::nullopt;
     }
-    of_base =
-        Range{before->low - std::numbers::pi - kWrapSlack, before->high + std::numbers::pi + kWrapSlack};
+    const double low = direction_ == Steps::forward ? kLeastStep : -std::numbers::pi;
+    const double high = direction_ == Steps::backward ? -kLeastStep : std::numbers::pi;
+    of_base = Range{before->low + low - kWrapSlack, before->high + high + kWrapSlack};
     steps_.insert(base);
   }
   bases_[base] = *of_base;

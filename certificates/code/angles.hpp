@@ -30,6 +30,12 @@ class Angles {
   [[nodiscard]] std::optional<model::code::Range> range(int value);
   /// Whether the range of what is wrapped rests on a step.
   [[nodiscard]] bool has_step(int base) const { return steps_.contains(base); }
+  /// Steps are limited to less than half a turn, either way or one way alone: wraps of one side keep a range
+  /// where the angle does not turn back.
+  enum class Steps { either_way, forward, backward };
+  [[nodiscard]] Steps steps() const { return direction_; }
+  /// One way, a step is at least this, rad: more than what its angle may be off.
+  static constexpr double kLeastStep = 1e-3;
   /// An angle that grows for ever stops when the next step is less than half of a unit in its last place.
   /// Throws NoRecursion.
   void require_wraps(int angle);
@@ -44,6 +50,7 @@ class Angles {
     return listing_->instructions[static_cast<std::size_t>(value)];
   }
   void find_ranges();
+  [[nodiscard]] bool keeps_ranges();
   [[nodiscard]] bool widen_ranges();
   [[nodiscard]] bool is_angular(int value);
   [[nodiscard]] std::optional<model::code::Range> range_of(int value);
@@ -54,6 +61,7 @@ class Angles {
   std::map<int, bool> is_angle_;  ///< of the inputs
   std::map<int, model::code::Range> ranges_, bases_;
   std::set<int> steps_;  ///< bases that are an angle and a step
+  Steps direction_ = Steps::either_way;
 };
 
 }  // namespace veritrack::certificates::code

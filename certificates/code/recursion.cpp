@@ -166,7 +166,11 @@ class Writer {
       text += text.empty() ? (subtracts ? "-" + part.as_factor() : part.as_term())
                            : (subtracts ? " - " + part.as_factor() : " + " + part.as_term());
     }
-    lines_.push_back(fmt::format("{} = stays_within({}, -pi, pi)", free_name("turn"), text));
+    const bool is_forward = angles_.steps() == Angles::Steps::forward;
+    const bool is_backward = angles_.steps() == Angles::Steps::backward;
+    const std::string least = fmt::format("{}", Angles::kLeastStep);
+    lines_.push_back(fmt::format("{} = stays_within({}, {}, {})", free_name("turn"), text,
+                                 is_forward ? least : "-pi", is_backward ? "-" + least : "pi"));
     if (turns_.is_wrapped(rest->angle)) {
       limit_step(turns_.without_turns(rest->angle));
     }

@@ -94,6 +94,9 @@ class ListingMatch {
   [[nodiscard]] std::optional<double> bound(int node) const;
   void find_spans(Objections& objections);
   [[nodiscard]] std::optional<ListedWrap> wrap_of(int place);
+  /// Whether the program keeps the range of an angle, too: steps one way alone have to be larger than what it
+  /// is off.
+  [[nodiscard]] bool is_kept_when_rounded(const ListedState& state);
   [[nodiscard]] bool is_kept_by_wraps(int condition);
 
   // ---- obligations

@@ -245,8 +245,26 @@ bool ListingMatch::is_kept_by_wraps(int condition) {
   return false;
 }
 
+bool ListingMatch::is_kept_when_rounded(const ListedState& state) {
+  constexpr double kOfStep = 1e-4;  // more than a sum and its wrap are off
+  const int place = wraps_.plain(state.next);
+  const int base = wraps_.base_of(place);
+  const Span range = state_spans_.at(state.input);
+  const std::optional<Span> before = base < 0 ? std::nullopt : span(base);
+  const std::optional<Span> after =
+      before ? wraps_.range(place, base, {before->low - kRoundedAngle, before->high + kRoundedAngle})
+             : std::nullopt;
+  return after && after->low >= range.low - kRoundedAngle + kOfStep &&
+         after->high <= range.high + kRoundedAngle - kOfStep;
+}
+
 std::optional<ListedAngles> ListingMatch::angles() {
   ListedAngles result;
+  for (const ListedState& state : listing_->states) {
+    if (state_spans_.contains(state.input) && !is_kept_when_rounded(state)) {
+      return std::nullopt;
+    }
+  }
   for (const auto& [place, span] : state_spans_) {
     result.states.emplace(place, Ball::hull(Ball(span.low - kRoundedAngle), Ball(span.high + kRoundedAngle)));
   }

@@ -70,6 +70,20 @@ TEST_CASE(
         "w' = w + y*sin(r1)*0.100000001490116119384765625\n");
 }
 
+TEST_CASE("a wrap of one side has steps of one way") {
+  const std::string down =
+      "r3 = fadd.f32 r1 r2\nr4 = fcmp.ogt.f32 r3 f32:0x1.921fb6p+1\nr5 = fadd.f32 r3 f32:-0x1.921fb6p+2\n"
+      "r6 = select.f32 r4 r5 r3\n";
+  const std::string up =
+      "r3 = fsub.f32 r1 r2\nr4 = fcmp.olt.f32 r3 f32:0x0p+0\nr5 = fadd.f32 r3 f32:0x1.921fb6p+2\n"
+      "r6 = select.f32 r4 r5 r3\n";
+  const std::string next = "next r1 r6\nnext r2 r2\nfrequency r2\n";
+  CHECK(made(down + next).step.substr(0, 36) == "turn1 = stays_within(w, 0.001, pi)\nt");
+  CHECK(made(up + next).step.substr(0, 40) == "turn1 = stays_within(-w, -pi, -0.001)\nth");
+  const std::string never = down.substr(0, down.find("r6")) + "r6 = select.f32 r4 r3 r5\n";
+  CHECK(refusal(never + next).find("the wraps do not keep theta in a range") == 0);
+}
+
 TEST_CASE("choices are what they are of real numbers") {
   const auto choice = [](const std::string& comparison, const std::string& yes, const std::string& no) {
     return next_w("r3 = fadd.f32 r2 r0\nr4 = fneg.f32 r3\nr5 = fcmp." + comparison + "\nr6 = select.f32 r5 " +

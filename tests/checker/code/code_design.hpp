@@ -39,6 +39,11 @@ struct CodeDesign {
               {"compiler", "clang"},
               {"listing", listing}}}};
   }
+  /// Whether its angles keep their ranges when they are rounded, too.
+  [[nodiscard]] bool may_be_rounded() const {
+    checker::Objections objections;
+    return checker::check_code(checker::read_json(json().dump()), objections).angles && objections.empty();
+  }
   /// The first objection; empty: verified.
   [[nodiscard]] std::string objection() const {
     checker::Objections objections;

@@ -123,6 +123,25 @@ TEST_CASE("forgeries of a loop are refused") {
        {"an obligation that is false", in_listing("must-be-zero r19", "must-be-zero i1:1")}});
 }
 
+TEST_CASE("a wrap of one side keeps an angle whose steps are limited to one way") {
+  CHECK(test::loop().may_be_rounded());
+  CodeDesign loop = test::loop();
+  loop.listing = replaced(loop.listing, "next r1 r13", "next r1 r10");
+  const auto with = [&](const std::string& limits) {
+    CodeDesign design = loop;
+    design.step = replaced(design.step, "-pi, pi", limits);
+    return design;
+  };
+  CHECK(with("0.001, pi").objection() == "");
+  CHECK(with("0.001, pi").may_be_rounded());
+  // Steps that are smaller than what an angle is off may drift.
+  CHECK(with("0.000001, pi").objection() == "");
+  CHECK_FALSE(with("0.000001, pi").may_be_rounded());
+  CHECK(with("-0.001, pi").objection() != "");
+  CHECK(with("0.001, 4").objection() != "");
+  CHECK(with("-pi, -0.001").objection() != "");
+}
+
 TEST_CASE("forgeries of a difference of angles are refused") {
   check_refused(
       test::detector(),

@@ -104,7 +104,8 @@ TEST_CASE("a branch that jumps and is not decided has no bound, and one that is 
     const int sum = made.make(Operation::fadd, {w, y});
     const int above = made.make(Operation::fcmp, {sum, made.number(limit)}, Predicate::ogt);
     const int far_above = made.make(Operation::fcmp, {w, made.number(2.0)}, Predicate::ogt);
-    const int either = made.make(Operation::select, {far_above, far_above, above}, Predicate::none, trackers::code::kBit);
+    const int either =
+        made.make(Operation::select, {far_above, far_above, above}, Predicate::none, trackers::code::kBit);
     made.listing.states[0].next = made.make(Operation::select, {either, made.number(0.0), sum});
     made.listing.frequency = w;
     return made.listing;

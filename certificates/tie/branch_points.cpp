@@ -118,7 +118,7 @@ BranchPoints steps_beside_branches(const Listing& listing, const std::function<S
   std::vector<std::size_t> open = comparisons_of(listing);
   BranchPoints result;
   result.comparisons = static_cast<int>(open.size());
-  for (bool is_first_turn = true; !open.empty(); is_first_turn = false) {
+  while (!open.empty()) {
     std::vector<std::size_t> changed;
     for (const std::size_t comparison : open) {
       if (static_cast<int>(result.steps.size()) + 2 > count) {
@@ -133,7 +133,7 @@ BranchPoints steps_beside_branches(const Listing& listing, const std::function<S
         changed.push_back(comparison);
         result.steps.push_back(std::move(found->first));
         result.steps.push_back(std::move(found->second));
-        result.changed_comparisons += is_first_turn ? 1 : 0;
+        result.changing.insert(result.changing.end(), 2, comparison);
       }
     }
     open = std::move(changed);

@@ -1,7 +1,7 @@
 // Inputs beside the points where a comparison of a listing changes its truth.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -11,9 +11,9 @@
 namespace veritrack::certificates::tie {
 
 struct BranchPoints {
-  std::vector<StepInput> steps;  ///< pairs: between the two, a comparison changes
-  int comparisons = 0;           ///< of the listing, without those that ask whether a value is a number
-  int changed_comparisons = 0;   ///< those of the pairs
+  std::vector<StepInput> steps;       ///< pairs: between the two, a comparison changes
+  std::vector<std::size_t> changing;  ///< its register, for each of the steps
+  int comparisons = 0;                ///< of the listing, without those that ask whether a value is a number
 };
 
 /// At most `count` inputs, in pairs that differ in one state or sample, by one unit in the last place. All

@@ -77,19 +77,19 @@ WorkFolder::~WorkFolder() {
   fs::remove_all(path_, ignored);
 }
 
-BuiltProgram::BuiltProgram(const Sources& sources, const std::string& build, const std::string& emulator)
-    : sources_(&sources), build_(build), emulator_(words_of(emulator)) {
-  const Compiler compiler(sources, build, folder_.path());
+BuiltProgram::BuiltProgram(Sources sources, const std::string& build, const std::string& emulator)
+    : sources_(std::move(sources)), build_(build), emulator_(words_of(emulator)) {
+  const Compiler compiler(sources_, build, folder_.path());
   const std::vector<StateAccess> access = compiler.access();
   const std::size_t harness = compiler.harness();
-  std::vector<std::string> texts(sources.files.size());
+  std::vector<std::string> texts(sources_.files.size());
   for (std::size_t state = 0; state < access.size(); ++state) {
-    const auto input = static_cast<std::size_t>(sources.listing->states[state].input);
+    const auto input = static_cast<std::size_t>(sources_.listing->states[state].input);
     texts.at(access[state].file) +=
-        access_text(state, sources.listing->instructions[input].format, access[state].expression);
+        access_text(state, sources_.listing->instructions[input].format, access[state].expression);
   }
-  texts.at(harness) += harness_text(*sources.listing);
-  compiler.build(texts, main_text(*sources.listing, folder_.path() / "in", folder_.path() / "out"),
+  texts.at(harness) += harness_text(*sources_.listing);
+  compiler.build(texts, main_text(*sources_.listing, folder_.path() / "in", folder_.path() / "out"),
                  folder_.path() / "program");
 }
 
@@ -142,7 +142,7 @@ std::vector<Words> BuiltProgram::ask(Question question, const std::vector<Words>
 
 std::vector<std::uint64_t> BuiltProgram::library(LibraryFunction function,
                                                  const std::vector<LibraryArguments>& arguments) const {
-  const std::vector<LibraryFunction> known = library_functions(*sources_->listing);
+  const std::vector<LibraryFunction> known = library_functions(*sources_.listing);
   const auto number = static_cast<std::uint64_t>(
       std::distance(known.begin(), std::find(known.begin(), known.end(), function)));
   std::vector<Words> requests;

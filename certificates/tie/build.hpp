@@ -59,7 +59,7 @@ class BuiltProgram {
   /// Compiles and links; `build` are words such as gcc -O2, in which {} stands for the files (otherwise they
   /// come last); `emulator` is empty where the program runs by itself, or words that its path is put behind.
   /// Throws BuildError.
-  BuiltProgram(const Sources& sources, const std::string& build, const std::string& emulator);
+  BuiltProgram(Sources sources, const std::string& build, const std::string& emulator);
 
   /// The answers to requests of the same kind, `answer` words each. Throws BuildError.
   [[nodiscard]] std::vector<std::vector<std::uint64_t>> ask(
@@ -69,7 +69,7 @@ class BuiltProgram {
                                                    const std::vector<LibraryArguments>& arguments) const;
 
  private:
-  const Sources* sources_;
+  Sources sources_;
   std::string build_;
   std::vector<std::string> emulator_;
   WorkFolder folder_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <numeric>
 
 #include "certificates/model/model_design.hpp"
 #include "certificates/tie/evaluation.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 using trackers::code::Listing;
 
+constexpr double kMostOfAnAngle = 1.25 * std::numbers::pi;
 constexpr DrawRanges::Range kElsewhere{-4.0, 4.0};  // of states that the design says nothing of
 
 /// The states that a register is computed from.
@@ -82,11 +85,18 @@ DrawRanges draw_ranges(const Design& design) {
   ranges.states.assign(listing.states.size(), kElsewhere);
   ranges.amplitude = {tables.assume.amplitude[0].nearest, tables.assume.amplitude[1].nearest};
   ranges.noise = std::isfinite(tables.assume.noise.nearest) ? std::fabs(tables.assume.noise.nearest) : 0.0;
-  set_band(listing, tables.assume.frequency[0].nearest, tables.assume.frequency[1].nearest, ranges);
+  const double unit = tables.assume.frequency_in_hertz  // of the band, in rad/sample
+                          ? 2.0 * std::numbers::pi / tables.assume.sample_rate.value().nearest
+                          : 1.0;
+  set_band(listing, unit * tables.assume.frequency[0].nearest, unit * tables.assume.frequency[1].nearest,
+           ranges);
   for (std::size_t i = 0; i < listing.states.size(); ++i) {
     const auto known = compiled.recursion.ranges.find(listing.states[i].input);
     if (known != compiled.recursion.ranges.end()) {
-      ranges.states[i] = {known->second.low, known->second.high};
+      // Wraps may allow more than a turn, where steps are never found.
+      const double middle = std::midpoint(known->second.low, known->second.high);
+      const double half = std::min((known->second.high - known->second.low) / 2.0, kMostOfAnAngle);
+      ranges.states[i] = {middle - half, middle + half};
     }
   }
   return ranges;

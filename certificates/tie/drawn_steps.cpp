@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <set>
 
 #include "certificates/tie/branch_points.hpp"
 
@@ -63,17 +64,21 @@ StepInput drawn_step(Draws& draws, const Listing& listing, const DrawRanges& ran
   return step;
 }
 
-/// Keeps the steps that obligations allow, and counts the others.
-void keep(const Listing& listing, const std::vector<StepInput>& steps, std::size_t most, DrawnSteps& into) {
+/// Keeps the steps that obligations allow, and counts the others; which ones it has kept.
+std::vector<std::size_t> keep(const Listing& listing, const std::vector<StepInput>& steps, std::size_t most,
+                              DrawnSteps& into) {
   const auto registers = registers_of(listing, steps, own_library);
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < steps.size() && into.steps.size() < most; ++i) {
     const int broken = broken_obligation(listing, registers[i]);
     if (broken < 0) {
       into.steps.push_back(steps[i]);
+      kept.push_back(i);
     } else {
       ++into.left_out[broken];
     }
   }
+  return kept;
 }
 
 }  // namespace
@@ -82,18 +87,22 @@ DrawnSteps drawn_steps(const Listing& listing, const DrawRanges& ranges, int cou
   Draws draws(seed);
   DrawnSteps result;
   const auto draw = [&] { return drawn_step(draws, listing, ranges); };
-  const BranchPoints points = steps_beside_branches(listing, draw, count / 10);
-  keep(listing, points.steps, static_cast<std::size_t>(count), result);
+  // Some of them will not keep an obligation.
+  const BranchPoints points = steps_beside_branches(listing, draw, count / 5);
+  std::set<std::size_t> changing;
+  for (const std::size_t i : keep(listing, points.steps, static_cast<std::size_t>(count / 10), result)) {
+    changing.insert(points.changing[i]);
+  }
   result.beside_branches = static_cast<int>(result.steps.size());
   result.comparisons = points.comparisons;
-  result.changed_comparisons = points.changed_comparisons;
+  result.changed_comparisons = static_cast<int>(changing.size());
   const auto most = static_cast<std::size_t>(count);
   for (int round = 0; round < kMostTries && result.steps.size() < most; ++round) {
     std::vector<StepInput> steps;
     while (steps.size() < most - result.steps.size()) {
       steps.push_back(draw());
     }
-    keep(listing, steps, most, result);
+    static_cast<void>(keep(listing, steps, most, result));
   }
   return result;
 }

@@ -3,8 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,21 +35,30 @@ std::string place_text(const Listing& listing, Place place) {
                                       place.line, place.column);
 }
 
-/// The line of the operation that makes the value, or of the first behind it that has one.
-std::string source_of(const Listing& listing, int value) {
-  std::vector<int> open{register_in_listing(listing, value)};
-  for (std::size_t i = 0; i < open.size() && i < listing.instructions.size(); ++i) {
-    const auto& instruction = listing.instructions[static_cast<std::size_t>(open[i])];
-    if (instruction.place.file >= 0) {
-      return place_text(listing, instruction.place);
+/// Whether the operation only hands a value on: the place of a select is that where branches meet.
+bool hands_on(trackers::code::Operation operation) {
+  using trackers::code::Operation;
+  return operation == Operation::select || operation == Operation::fpext || operation == Operation::fptrunc ||
+         operation == Operation::zext || operation == Operation::integer_trunc;
+}
+
+/// The line of the operation that makes the value in this step, behind those that hand it on.
+std::string source_of(const Listing& listing, const Difference& difference) {
+  const auto registers = registers_of(listing, {difference.before}, own_library).front();
+  std::string first;
+  for (int at = register_in_listing(listing, difference.value); at >= 0;) {
+    const auto& instruction = listing.instructions[static_cast<std::size_t>(at)];
+    const std::string place = place_text(listing, instruction.place);
+    if (!place.empty() && !hands_on(instruction.operation)) {
+      return place;
     }
-    for (const int operand : instruction.operands) {
-      if (operand >= 0) {
-        open.push_back(operand);
-      }
+    first = first.empty() ? place : first;
+    at = instruction.operands[0];
+    if (instruction.operation == trackers::code::Operation::select) {
+      at = instruction.operands.at(registers[static_cast<std::size_t>(at)] != 0 ? 1 : 2);
     }
   }
-  return "";
+  return first;
 }
 
 std::string value_text(Format format, std::uint64_t bits) {
@@ -80,7 +89,7 @@ std::string input_text(const Listing& listing, const StepInput& before) {
 std::string first_difference(const Listing& listing, const Difference& first) {
   const int value = register_in_listing(listing, first.value);
   const Format format = listing.instructions[static_cast<std::size_t>(value)].format;
-  const std::string source = first.is_start ? "" : source_of(listing, first.value);
+  const std::string source = first.is_start ? "" : source_of(listing, first);
   std::string text =
       fmt::format("  first difference: {} after {}{}\n", name_of_value(listing, first.value),
                   first.is_start ? "setup" : "a step", source.empty() ? "" : ", computed at " + source);
@@ -91,6 +100,17 @@ std::string first_difference(const Listing& listing, const Difference& first) {
   text += fmt::format("    program: {}\n    listing: {}\n", value_text(format, first.in_program),
                       value_text(format, first.in_listing));
   return first.is_start ? text : text + "  from\n" + input_text(listing, first.before);
+}
+
+/// How many steps do not keep an obligation, by what it says.
+std::map<std::string, int> by_reason(const Listing& listing, const std::map<int, int>& left_out) {
+  std::map<std::string, int> counts;
+  for (const auto& each : left_out) {
+    const auto& obligation = listing.obligations.at(static_cast<std::size_t>(each.first));
+    const std::string place = place_text(listing, obligation.place);
+    counts[obligation.why + (place.empty() ? "" : " (" + place + ")")] += each.second;
+  }
+  return counts;
 }
 
 std::string build_text(const Listing& listing, const BuildResult& build) {
@@ -108,10 +128,9 @@ std::string build_text(const Listing& listing, const BuildResult& build) {
       }
     }
   }
-  for (const auto& left_out : build.left_out) {
-    const auto& obligation = listing.obligations.at(static_cast<std::size_t>(left_out.first));
-    text += fmt::format("  left out with the results of its library: {}, because not: {} ({})\n",
-                        left_out.second, obligation.why, place_text(listing, obligation.place));
+  for (const auto& left_out : by_reason(listing, build.left_out)) {
+    text += fmt::format("  left out with the results of its library: {} where not: {}\n", left_out.second,
+                        left_out.first);
   }
   return text;
 }
@@ -125,12 +144,9 @@ std::string how_drawn(const Listing& listing, const TieRequest& request, const D
                     "comparisons).\n",
                     drawn.beside_branches, drawn.changed_comparisons, drawn.comparisons)
               : ".\n";
-  for (const auto& left_out : drawn.left_out) {
-    const auto& obligation = listing.obligations.at(static_cast<std::size_t>(left_out.first));
-    const std::string place = place_text(listing, obligation.place);
-    text +=
-        fmt::format("Drawn and left out, because the listing does not speak of them: {} where not: {}{}\n",
-                    left_out.second, obligation.why, place.empty() ? "" : " (" + place + ")");
+  for (const auto& left_out : by_reason(listing, drawn.left_out)) {
+    text += fmt::format("Drawn and left out, because the listing does not speak of them: {} where not: {}\n",
+                        left_out.second, left_out.first);
   }
   return text;
 }
@@ -178,8 +194,9 @@ std::string tie_text(const Design& design, const TieRequest& request, const TieR
   text += how_drawn(listing, request, result.drawn) + library_text(listing);
   if (different > 0) {
     text +=
-        "A build that fuses products and sums (gcc does by itself where the processor can; -ffp-contract=off "
-        "does not) differs in last bits; whether the certificate covers that, its sentences say.\n";
+        "A build that fuses products and sums (gcc does where the processor can, unless -ffp-contract=off) "
+        "rounds otherwise: last bits differ, and where an angle is wrapped whole turns. The sentences of the "
+        "certificate say whether they are true of fused operations.\n";
   }
   return text;
 }

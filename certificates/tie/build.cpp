@@ -41,6 +41,15 @@ std::uint64_t word_at(const std::string& bytes, std::size_t number) {
   return word;
 }
 
+/// The first bytes of an ELF file, which name its processor.
+std::string processor_of(const fs::path& program) {
+  constexpr std::size_t kHeader =
+      20;  // bytes: with e_machine, and before it the class and the order of bytes
+  std::string header(kHeader, '\0');
+  std::ifstream(program, std::ios::binary).read(header.data(), kHeader);
+  return header.substr(4, 2) + header.substr(kHeader - 2);
+}
+
 }  // namespace
 
 Sources sources_of(const code::CodeTable& code, const trackers::code::Listing& listing,
@@ -65,7 +74,7 @@ std::vector<std::string> words_of(const std::string& command) {
 }
 
 WorkFolder::WorkFolder() {
-  std::string name = (fs::temp_directory_path() / "veritrack-tie-XXXXXX").string();
+  std::string name = (fs::absolute(fs::temp_directory_path()) / "veritrack-tie-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) {
     throw std::system_error(errno, std::generic_category(), "a folder for the program that is built");
   }
@@ -89,8 +98,13 @@ BuiltProgram::BuiltProgram(Sources sources, const std::string& build, const std:
         access_text(state, sources_.listing->instructions[input].format, access[state].expression);
   }
   texts.at(harness) += harness_text(*sources_.listing);
-  compiler.build(texts, main_text(*sources_.listing, folder_.path() / "in", folder_.path() / "out"),
-                 folder_.path() / "program");
+  const fs::path program = folder_.path() / "program";
+  compiler.build(texts, main_text(*sources_.listing, folder_.path() / "in", folder_.path() / "out"), program);
+  if (emulator_.empty() && processor_of(program) != processor_of("/proc/self/exe")) {
+    throw BuildError(fmt::format(
+        "the program of --build \"{}\" is for another processor; allowed: --emulator with what runs it",
+        printable(build_, kShownText)));
+  }
 }
 
 std::vector<Words> BuiltProgram::ask(Question question, const std::vector<Words>& requests,
@@ -120,8 +134,7 @@ std::vector<Words> BuiltProgram::ask(Question question, const std::vector<Words>
     }
   } catch (const std::system_error& error) {
     throw fail(fmt::format("cannot be run by {}: {}",
-                           emulator_.empty() ? "this machine; allowed: --emulator for another processor"
-                                             : printable(emulator_.front(), kShownText),
+                           emulator_.empty() ? "this machine" : printable(emulator_.front(), kShownText),
                            error.code().message()));
   }
   std::ifstream file(folder_.path() / "out", std::ios::binary);

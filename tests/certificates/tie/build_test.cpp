@@ -41,7 +41,7 @@ float frequency(void) { return *at(); }
 
 TEST_CASE("a command that does not build is refused with its first error, and without names of our folders") {
   const OneFile file(kLoop);
-  CHECK(contains(refusal(file, "gcc -O2 -DORDER=nothing"), "'nothing' undeclared"));
+  CHECK(contains(refusal(file, "gcc -O2 -DORDER=nothing"), "undeclared (first use in this function)"));
   CHECK(refusal(file, "gcc -O2 -DORDER=nothing").find("veritrack-tie-") == std::string::npos);
   CHECK(contains(refusal(file, "no-such-compiler -O2"), "no-such-compiler cannot be run"));
   CHECK(contains(refusal(file, "  "), "--build is empty"));

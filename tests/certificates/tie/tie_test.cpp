@@ -42,6 +42,7 @@ void loop_run(float y, float z) {
   if (e < -3.14159265f) e += 6.28318531f;
   theta += hertz * 0.00628318531f + 0.2f * e;
   if (theta > 3.14159265f) theta -= 6.28318531f;
+  if (theta < -3.14159265f) theta += 6.28318531f;
   hertz += GAIN * e;
 }
 )";
@@ -91,7 +92,7 @@ TEST_CASE("equal builds, and one that differs: which state, both values, the inp
   CHECK(same.is_equal());
   const std::string text = tie_text(design, request, same);
   CAPTURE(text);
-  CHECK(text.rfind("EQUAL: 500 states, 2 builds: each bit of hertz, theta and the frequency\n", 0) == 0);
+  CHECK(text.rfind("EQUAL: 500 states, 2 builds: each bit of theta, hertz and the frequency\n", 0) == 0);
   CHECK(text.find("Drawn with seed 1: 500 states and samples, 50 of them in pairs") != std::string::npos);
   CHECK(text.find("Results of atan2f are those of each build's own library") != std::string::npos);
 
@@ -101,12 +102,22 @@ TEST_CASE("equal builds, and one that differs: which state, both values, the inp
   const std::string difference = tie_text(design, request, other);
   CAPTURE(difference);
   CHECK(difference.rfind("DIFFERENT: 1 of 3 builds\ngcc -O0: equal in 500 states\n", 0) == 0);
-  CHECK(difference.find("first difference: hertz after a step, computed at loop.c:13:9\n    program: ") !=
+  CHECK(difference.find("first difference: hertz after a step, computed at loop.c:14:9\n    program: ") !=
         std::string::npos);
   CHECK(difference.find("    listing: ") != std::string::npos);
-  CHECK(difference.find("  from\n    hertz = ") != std::string::npos);
+  CHECK(difference.find("  from\n    theta = ") != std::string::npos);
   CHECK(difference.find("    sample y = ") != std::string::npos);
   CHECK(difference.find(made.folder.path().string()) == std::string::npos);
+}
+
+TEST_CASE("a comparison of nothing is a failure") {
+  const Folder made;
+  const std::string file = (made.folder / "design.toml").string();
+  const Design design = read_design_file(file);
+  TieRequest request;
+  request.builds = {"gcc -O2"};
+  request.states = 0;
+  CHECK_THROWS_AS((void)tied(design, file, request), NothingCompared);
 }
 
 TEST_CASE("a design without code has nothing to compare") {

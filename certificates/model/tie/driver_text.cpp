@@ -1,10 +1,10 @@
-#include "certificates/tie/driver_text.hpp"
+#include "certificates/model/tie/driver_text.hpp"
 
 #include <fmt/format.h>
 
 #include <regex>
 
-#include "certificates/tie/evaluation.hpp"
+#include "certificates/model/tie/evaluation.hpp"
 
 namespace veritrack::certificates::tie {
 

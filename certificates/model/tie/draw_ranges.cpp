@@ -1,4 +1,4 @@
-#include "certificates/tie/draw_ranges.hpp"
+#include "certificates/model/tie/draw_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "certificates/model/model_design.hpp"
-#include "certificates/tie/evaluation.hpp"
+#include "certificates/model/tie/evaluation.hpp"
 
 namespace veritrack::certificates::tie {
 

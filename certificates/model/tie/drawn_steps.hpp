@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "certificates/tie/evaluation.hpp"
+#include "certificates/model/tie/evaluation.hpp"
 #include "trackers/code/listing.hpp"
 
 namespace veritrack::certificates::tie {

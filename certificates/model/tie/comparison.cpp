@@ -1,4 +1,4 @@
-#include "certificates/tie/comparison.hpp"
+#include "certificates/model/tie/comparison.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "certificates/tie/drawn_steps.hpp"
+#include "certificates/model/tie/drawn_steps.hpp"
 
 #include <doctest/doctest.h>
 

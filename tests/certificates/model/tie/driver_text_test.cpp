@@ -1,4 +1,4 @@
-#include "certificates/tie/driver_text.hpp"
+#include "certificates/model/tie/driver_text.hpp"
 
 #include <doctest/doctest.h>
 

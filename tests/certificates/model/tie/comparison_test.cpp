@@ -1,5 +1,5 @@
 // Programs and listings that are equal, and every change of either, which has to be found.
-#include "certificates/tie/comparison.hpp"
+#include "certificates/model/tie/comparison.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/certificates/tie/tie_support.hpp"
+#include "tests/certificates/model/tie/tie_support.hpp"
 
 namespace veritrack::certificates::tie {
 

@@ -1,4 +1,4 @@
-#include "certificates/tie/branch_points.hpp"
+#include "certificates/model/tie/branch_points.hpp"
 
 #include <cstddef>
 #include <optional>

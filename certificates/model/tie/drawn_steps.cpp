@@ -1,4 +1,4 @@
-#include "certificates/tie/drawn_steps.hpp"
+#include "certificates/model/tie/drawn_steps.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "certificates/tie/branch_points.hpp"
+#include "certificates/model/tie/branch_points.hpp"
 
 namespace veritrack::certificates::tie {
 

@@ -1,5 +1,5 @@
 // What veritrack tie says, for a design.
-#include "certificates/tie/tie.hpp"
+#include "certificates/model/tie/tie.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,8 @@
 #include <string>
 
 #include "certificates/design/design_reader.hpp"
-#include "certificates/tie/draw_ranges.hpp"
+#include "certificates/design/input_error.hpp"
+#include "certificates/model/tie/draw_ranges.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace veritrack::certificates::tie {
@@ -61,7 +62,6 @@ struct Folder {
 TEST_CASE("states are drawn where the design says: the band with an eighth beyond, angles, the amplitude") {
   const Folder made;
   const Design design = read_design_file((made.folder / "design.toml").string());
-  REQUIRE(has_code(design));
   const auto& listing = listing_of(design);
   const DrawRanges ranges = draw_ranges(design);
   REQUIRE(listing.states.size() == 2);
@@ -122,7 +122,7 @@ TEST_CASE("a comparison of nothing is a failure") {
 
 TEST_CASE("a design without code has nothing to compare") {
   const std::string file = std::string(VERITRACK_SOURCE_DIR) + "/designs/models/sogi-fll.toml";
-  CHECK_FALSE(has_code(read_design_file(file)));
+  CHECK_THROWS_AS((void)tie_model(read_design_file(file), file, {}), InputError);
 }
 
 }  // namespace veritrack::certificates::tie

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "certificates/tie/evaluation.hpp"
+#include "certificates/model/tie/evaluation.hpp"
 #include "trackers/code/listing.hpp"
 
 namespace veritrack::certificates::tie {

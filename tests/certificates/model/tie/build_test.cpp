@@ -1,12 +1,12 @@
 // Programs that are built, and what is said of those that are not.
-#include "certificates/tie/build.hpp"
+#include "certificates/model/tie/build.hpp"
 
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <string>
 
-#include "tests/certificates/tie/tie_support.hpp"
+#include "tests/certificates/model/tie/tie_support.hpp"
 
 namespace veritrack::certificates::tie {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "certificates/design/design.hpp"
-#include "certificates/tie/drawn_steps.hpp"
+#include "certificates/model/tie/drawn_steps.hpp"
 
 namespace veritrack::certificates::tie {
 

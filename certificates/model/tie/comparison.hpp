@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "certificates/tie/build.hpp"
-#include "certificates/tie/evaluation.hpp"
+#include "certificates/model/tie/build.hpp"
+#include "certificates/model/tie/evaluation.hpp"
 #include "trackers/code/listing.hpp"
 
 namespace veritrack::certificates::tie {

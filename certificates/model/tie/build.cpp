@@ -1,11 +1,11 @@
-#include "certificates/tie/build.hpp"
+#include "certificates/model/tie/build.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -14,7 +14,7 @@
 
 #include "certificates/design/input_error.hpp"
 #include "certificates/document/program.hpp"
-#include "certificates/tie/compiler.hpp"
+#include "certificates/model/tie/compiler.hpp"
 
 namespace veritrack::certificates::tie {
 

@@ -1,4 +1,4 @@
-#include "certificates/tie/compiler.hpp"
+#include "certificates/model/tie/compiler.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

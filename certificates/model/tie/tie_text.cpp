@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "certificates/code/listing_text.hpp"
-#include "certificates/tie/tie.hpp"
+#include "certificates/model/tie/tie.hpp"
 
 namespace veritrack::certificates::tie {
 

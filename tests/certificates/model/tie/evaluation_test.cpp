@@ -1,4 +1,4 @@
-#include "certificates/tie/evaluation.hpp"
+#include "certificates/model/tie/evaluation.hpp"
 
 #include <doctest/doctest.h>
 

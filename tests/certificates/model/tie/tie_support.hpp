@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "certificates/code/compilation.hpp"
-#include "certificates/tie/build.hpp"
-#include "certificates/tie/comparison.hpp"
-#include "certificates/tie/drawn_steps.hpp"
+#include "certificates/model/tie/build.hpp"
+#include "certificates/model/tie/comparison.hpp"
+#include "certificates/model/tie/drawn_steps.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace veritrack::certificates::tie {

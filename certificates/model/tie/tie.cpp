@@ -1,23 +1,18 @@
-#include "certificates/tie/tie.hpp"
+#include "certificates/model/tie/tie.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <any>
 
+#include "certificates/design/input_error.hpp"
 #include "certificates/model/model_design.hpp"
-#include "certificates/tie/build.hpp"
-#include "certificates/tie/draw_ranges.hpp"
+#include "certificates/model/tie/build.hpp"
+#include "certificates/model/tie/draw_ranges.hpp"
 
 namespace veritrack::certificates::tie {
 
 bool TieResult::is_equal() const {
   return std::all_of(builds.begin(), builds.end(), [](const BuildResult& each) { return each.is_equal(); });
-}
-
-bool has_code(const Design& design) {
-  const auto* tables = std::any_cast<ModelTables>(&design.tables);
-  return tables != nullptr && tables->model.compiled.has_value();
 }
 
 const trackers::code::Listing& listing_of(const Design& design) {
@@ -49,6 +44,19 @@ TieResult tied(const Design& design, const std::filesystem::path& design_file, c
     result.builds.push_back(std::move(compared_build));
   }
   return result;
+}
+
+TieAnswer tie_model(const Design& design, const std::filesystem::path& design_file,
+                    const TieRequest& request) {
+  if (!model_tables(design).model.compiled) {
+    const auto position = design.positions.find("tracker");
+    throw InputError(
+        design_file.string(), position != design.positions.end() ? position->second : Position{},
+        "veritrack tie compares a program, and this design has none; allowed: a design with [code] "
+        "(docs/firmware.md)");
+  }
+  const TieResult result = tied(design, design_file, request);
+  return {result.is_equal(), tie_text(design, request, result)};
 }
 
 }  // namespace veritrack::certificates::tie

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "certificates/code/compilation.hpp"
-#include "certificates/tie/driver_text.hpp"
-#include "certificates/tie/evaluation.hpp"
+#include "certificates/model/tie/driver_text.hpp"
+#include "certificates/model/tie/evaluation.hpp"
 #include "trackers/code/listing.hpp"
 
 namespace veritrack::certificates::tie {

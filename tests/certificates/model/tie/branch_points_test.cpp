@@ -1,4 +1,4 @@
-#include "certificates/tie/branch_points.hpp"
+#include "certificates/model/tie/branch_points.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "certificates/code/listing_text.hpp"
-#include "certificates/tie/drawn_steps.hpp"
+#include "certificates/model/tie/drawn_steps.hpp"
 
 namespace veritrack::certificates::tie {
 

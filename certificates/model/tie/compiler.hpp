@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/tie/build.hpp"
+#include "certificates/model/tie/build.hpp"
 
 namespace veritrack::certificates::tie {
 

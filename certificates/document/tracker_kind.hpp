@@ -2,6 +2,7 @@
 // (certificates/registry.cpp) knows them all; nothing else asks which tracker a design is for.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>

@@ -12,7 +12,6 @@ namespace {
 
 using trackers::code::Format;
 using trackers::code::Listing;
-using trackers::code::Operation;
 
 /// The type of C with the bits of a format; integers are those of the least size that holds them.
 std::string type_of(Format format) {

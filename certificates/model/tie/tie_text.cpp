@@ -48,7 +48,7 @@ std::string source_of(const Listing& listing, const Difference& difference) {
   std::string first;
   for (int at = register_in_listing(listing, difference.value); at >= 0;) {
     const auto& instruction = listing.instructions[static_cast<std::size_t>(at)];
-    const std::string place = place_text(listing, instruction.place);
+    std::string place = place_text(listing, instruction.place);
     if (!place.empty() && !hands_on(instruction.operation)) {
       return place;
     }
@@ -63,7 +63,7 @@ std::string source_of(const Listing& listing, const Difference& difference) {
 
 std::string value_text(Format format, std::uint64_t bits) {
   const std::string exact = code::constant_text(format, bits);
-  const std::string plain = exact.substr(exact.find(':') + 1);
+  std::string plain = exact.substr(exact.find(':') + 1);
   if (!format.is_float) {
     return plain;
   }

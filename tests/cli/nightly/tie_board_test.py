@@ -21,6 +21,12 @@ class TieBoard(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
         self.assertTrue(result.stdout.startswith("EQUAL: 4000 states, 3 builds: each bit of pll.phase, pll.speed and"))
 
+    def test_a_processor_without_numbers_is_equal(self):
+        build = (f"{COMPILER} -mcpu=cortex-m3 -mthumb -O2 --specs=rdimon.specs -nostartfiles -T {BOARD / 'mps2.ld'} "
+                 f"{BOARD / 'start.c'}")
+        result = run("tie", DESIGN, "--emulator", EMULATOR.replace("an386", "an385"), "--build", build)
+        self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
+
     def test_a_fused_build_differs(self):
         result = run("tie", DESIGN, "--emulator", EMULATOR, "--build", f"{FOR_BOARD} -O2")  # gcc's default
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)

@@ -23,6 +23,8 @@ PYTHON_TEST_PACKAGES := $(PYTHON_PACKAGES) python3-pytest python3-distributed py
   python3-pip python3-venv python3-setuptools python3-wheel
 # types, and the notebook of docs/, by night
 PYTHON_NIGHTLY_PACKAGES := mypy python3-nbconvert python3-ipykernel
+# a microcontroller: its compiler, its library and an emulator, by night
+BOARD_PACKAGES := gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 LINT_PACKAGES  := clang clang-format clang-tidy git $(PYTHON_PACKAGES)
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot
@@ -97,7 +99,7 @@ pages:
 
 test:
 	@scripts/install-packages $(BUILD_PACKAGES) $(LIFT_PACKAGES) $(TEST_PACKAGES) $(PYTHON_TEST_PACKAGES) \
-	  $(if $(filter nightly,$(TEST_PRESET)),$(PYTHON_NIGHTLY_PACKAGES))
+	  $(if $(filter nightly,$(TEST_PRESET)),$(PYTHON_NIGHTLY_PACKAGES) $(BOARD_PACKAGES))
 	cmake --preset release -DVERITRACK_BUILD_TESTS=ON -DVERITRACK_BUILD_PYTHON=ON -DVERITRACK_TRACKERS=
 	cmake --build --preset release --parallel $(JOBS)
 	VERITRACK_TEST_EFFORT=$(VERITRACK_TEST_EFFORT) ctest --preset $(TEST_PRESET) --parallel $(JOBS)

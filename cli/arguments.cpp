@@ -24,7 +24,7 @@ namespace {
 
 namespace rigor = veritrack::rigor;
 
-constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
+constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
     {"certify",
      "  veritrack certify my-design.toml\n"
      "  veritrack certify my-design.toml --html --csv --latex\n"
@@ -45,6 +45,11 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
     {"show",
      "  veritrack show my-loop.toml\n"
      "  veritrack show my-loop.toml --language c > tracker.c"},
+    {"tie",
+     "  veritrack tie my-firmware.toml --build \"gcc -O2\" --build \"clang -O2\"\n"
+     "  veritrack tie my-firmware.toml --build \"arm-none-eabi-gcc -mcpu=cortex-m4 -T board.ld start.c\" "
+     "--emulator \"qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native "
+     "-kernel\""},
     {"tune",
      "  veritrack tune my-design.toml\n"
      "  veritrack tune my-design.toml --objective noise --timeout 300\n"
@@ -204,6 +209,36 @@ void add_show(CLI::App& app, Arguments& into) {
       ->capture_default_str();
 }
 
+void add_tie(CLI::App& app, Arguments& into) {
+  CLI::App* tie = app.add_subcommand("tie",
+                                     "build and run the program of a design with [code], and compare its "
+                                     "bits with those of the listing; the "
+                                     "only command that executes code of yours");
+  tie->add_option("DESIGN", into.tie.design, "design file (TOML) with [code]")->required();
+  tie->add_option("--build", into.tie.builds,
+                  "how you build: a compiler and its flags, split at spaces, without a shell; the files and "
+                  "flags of the design are added, at {} or at the end; may be repeated")
+      ->required()
+      ->allow_extra_args(false);
+  tie->add_option("--emulator", into.tie.emulator,
+                  "what runs the programs, where this machine does not: words, split at spaces, that the "
+                  "program's path is put behind; it opens files here (semihosting)");
+  tie->add_option("--state", into.tie.expressions,
+                  "an expression of C that reaches a state, NAME=EXPRESSION, where its name does not; may be "
+                  "repeated")
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) {
+        const std::size_t sign = text.find('=');
+        return sign != std::string::npos && sign > 0 && sign + 1 < text.size()
+                   ? std::string()
+                   : std::string("allowed: NAME=EXPRESSION");
+      });
+  tie->add_option("--states", into.tie.states, "states and samples to draw")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  tie->add_option("--seed", into.tie.seed, "of what is drawn")->capture_default_str();
+}
+
 void add_tune(CLI::App& app, Arguments& into) {
   CLI::App* tune =
       app.add_subcommand("tune", "choose design values for the best guarantee, and certify the result");
@@ -333,6 +368,7 @@ void add_commands(CLI::App& app, Arguments& into) {
   add_diff(app, into);
   add_map(app, into);
   add_show(app, into);
+  add_tie(app, into);
   add_tune(app, into);
   add_track(app, into);
   add_reproduce(app, into);

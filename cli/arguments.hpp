@@ -17,6 +17,7 @@ struct Arguments {
   DiffOptions diff;
   MapOptions map;
   ShowOptions show;
+  TieOptions tie;
   TuneOptions tune;
   TrackOptions track;
   ReproduceOptions reproduce;

@@ -184,4 +184,29 @@ ExitStatus run_show(const ShowOptions& options) {
   return all_proved;
 }
 
+ExitStatus run_tie(const TieOptions& options) {
+  const certificates::Design design = certificates::read_design_file(options.design);
+  const certificates::TrackerKind& kind = certificates::kind_of(design);
+  if (kind.tie == nullptr) {
+    refuse_tracker(options.design, design, "tie",
+                   certificates::names_of_kinds([](const auto& each) { return each.tie != nullptr; }));
+  }
+  certificates::TieRequest request;
+  request.builds = options.builds;
+  request.emulator = options.emulator;
+  request.states = options.states;
+  request.seed = options.seed;
+  for (const std::string& words : options.expressions) {
+    const std::size_t sign = words.find('=');
+    request.expressions[words.substr(0, sign)] = words.substr(sign + 1);
+  }
+  const certificates::TieAnswer answer = [&] {
+    const ProgressLine line(options.quiet, "comparing");
+    request.progress = [&](int done, int all) { line(done, all, "builds"); };
+    return kind.tie(design, options.design, request);
+  }();
+  fmt::print("{}", answer.text);
+  return answer.is_equal ? all_proved : not_proved;
+}
+
 }  // namespace veritrack::cli

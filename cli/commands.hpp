@@ -58,6 +58,16 @@ struct ShowOptions {
   std::string language = "formulas";
 };
 
+struct TieOptions {
+  std::string design;
+  std::vector<std::string> builds;       ///< commands, split at spaces
+  std::string emulator;                  ///< empty: programs run by themselves
+  std::vector<std::string> expressions;  ///< NAME=EXPRESSION of states
+  int states = 4000;                     ///< to draw
+  std::uint64_t seed = 1;
+  bool quiet = false;  ///< no progress on standard error
+};
+
 struct TuneOptions {
   std::string design;
   std::string output;
@@ -105,6 +115,7 @@ struct NewOptions {
 [[nodiscard]] ExitStatus run_diff(const DiffOptions& options);
 [[nodiscard]] ExitStatus run_map(const MapOptions& options);
 [[nodiscard]] ExitStatus run_show(const ShowOptions& options);
+[[nodiscard]] ExitStatus run_tie(const TieOptions& options);
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
 [[nodiscard]] ExitStatus run_track(const TrackOptions& options);
 [[nodiscard]] ExitStatus run_explain(const ExplainOptions& options);

@@ -114,7 +114,7 @@ int run(int argc, char** argv) {
   }
 
   arguments.certify.quiet = arguments.check.quiet = arguments.map.quiet = arguments.track.quiet = quiet;
-  arguments.diff.quiet = arguments.tune.quiet = quiet;
+  arguments.diff.quiet = arguments.tie.quiet = arguments.tune.quiet = quiet;
 
   if (app.got_subcommand("explain")) {
     return run_explain(arguments.explain);
@@ -142,6 +142,9 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("show")) {
     return run_show(arguments.show);
+  }
+  if (app.got_subcommand("tie")) {
+    return run_tie(arguments.tie);
   }
   if (app.got_subcommand("tune")) {
     return run_tune(arguments.tune);

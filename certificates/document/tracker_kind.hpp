@@ -2,6 +2,7 @@
 // (certificates/registry.cpp) knows them all; nothing else asks which tracker a design is for.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "certificates/document/formal_proof.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/number_json.hpp"
+#include "certificates/document/tie.hpp"
 #include "certificates/document/tracker_run.hpp"
 #include "certificates/document/tuning.hpp"
 #include "certificates/sets/frequency_promise.hpp"
@@ -58,6 +60,10 @@ struct TrackerKind {
   bool names_parameters = false;
   /// The step as text. Opens its own rounding scopes.
   std::string (*show)(const Design& design, CodeLanguage language) = nullptr;
+  /// The user's program is built, run, and compared with the design's code. Throws InputError for a design
+  /// without code.
+  TieAnswer (*tie)(const Design& design, const std::filesystem::path& design_file,
+                   const TieRequest& request) = nullptr;
   /// The tracker in double precision, and the assumptions on its signal. Throws NotTrackable. Opens its own
   /// rounding scopes.
   TrackerOnSamples (*track)(const Design& design) = nullptr;

@@ -17,6 +17,7 @@
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/model_tuning.hpp"
 #include "certificates/model/recursion_text.hpp"
+#include "certificates/model/tie/tie.hpp"
 
 namespace veritrack::certificates {
 
@@ -58,6 +59,7 @@ const TrackerKind& model_kind() {
                                 .tuning_objectives = model_tuning_objectives(),
                                 .names_parameters = true,
                                 .show = show,
+                                .tie = tie::tie_model,
                                 .track = model_on_samples,
                                 .frequency_promise = model_frequency_promise};
   return kind;

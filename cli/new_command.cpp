@@ -44,8 +44,9 @@ ExitStatus run_new_code(const NewOptions& options) {
   if (!made.harness_text.empty()) {
     require_new(made.harness);
     write_new(made.harness, made.harness_text);
-    fmt::print("{}: setup, step and frequency around {} of {}; its comments say what is a guess\n",
-               made.harness.string(), made.step, made.source);
+    fmt::print("{}: setup, step and frequency around {}; its comments say what is a guess{}\n",
+               made.harness.string(), made.step,
+               made.guessed.empty() ? std::string() : fmt::format("; put your numbers for {}", made.guessed));
   } else {
     fmt::print("{} has setup, step and frequency itself: no harness is needed\n", options.code);
   }

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
-#include <set>
 
 #include "certificates/code/harness/types.hpp"
 
@@ -55,44 +55,84 @@ GuessedArguments guessed_arguments(const std::vector<Variable>& parameters, cons
       guess = guessed_number(parameter.name, own);
     }
     has_unknown = has_unknown || !guess;
+    if (variable == nullptr) {
+      result.numbers.push_back(parameter.name);
+    }
     result.values.push_back(guess ? *guess : fmt::format("PUT_{}_HERE", parameter.name));
     result.summary +=
         fmt::format("{}{} = {}", result.summary.empty() ? "" : ", ", parameter.name, result.values.back());
   }
   result.advice = has_unknown ? "The file has no values for them, and some names suggest none: put yours."
                               : "The file has no values for them: put yours.";
-  if (!result.summary.empty() && result.summary.find_first_of("0123456789P") == std::string::npos) {
+  if (result.numbers.empty()) {
     result.advice = "It is the only such variable of the file.";
+  }
+  return result;
+}
+
+const Function* called_constructor(const HarnessPlan& plan, const Declarations& declarations) {
+  const Function* chosen = nullptr;
+  for (const Function& function : declarations.functions) {
+    if (!plan.has_own_object && function.is_constructor && function.owner == plan.step.object_type() &&
+        (chosen == nullptr || function.parameters.size() < chosen->parameters.size())) {
+      chosen = &function;
+    }
+  }
+  return chosen == nullptr || chosen->parameters.empty() ? nullptr : chosen;
+}
+
+std::vector<const Variable*> open_members(const HarnessPlan& plan, const Declarations& declarations) {
+  const Record* record = declarations.record_of(plan.step.object_type());
+  std::vector<const Variable*> result;
+  if (record == nullptr || plan.has_own_object || plan.is_cpp) {
+    return result;
+  }
+  for (const Variable& member : record->members) {
+    const bool is_set =
+        std::any_of(declarations.functions.begin(), declarations.functions.end(), [&](const Function& each) {
+          return each.written_members.count(member.name) != 0 || each.assigned.count(member.name) != 0;
+        });
+    if (is_number_type(member.type) && !is_set) {
+      result.push_back(&member);
+    }
   }
   return result;
 }
 
 std::string members_left_open(const HarnessPlan& plan, const Declarations& declarations,
                               const GuessContext& context) {
-  const Record* record = declarations.record_of(plan.step.object_type());
-  if (record == nullptr || plan.has_own_object || plan.is_cpp) {
-    return {};
-  }
-  std::set<std::string> set;
-  for (const Function& function : declarations.functions) {
-    set.insert(function.written_members.begin(), function.written_members.end());
-    for (const auto& [name, value] : function.assigned) {
-      set.insert(name);
-    }
-  }
   std::string text;
-  for (const Variable& member : record->members) {
-    if (!is_number_type(member.type) || set.count(member.name) != 0) {
-      continue;
-    }
+  for (const Variable* member : open_members(plan, declarations)) {
     GuessContext own = context;
-    own.is_double = bare_type(member.type) == "double";
-    const std::optional<std::string> guess = guessed_number(member.name, own);
+    own.is_double = bare_type(member->type) == "double";
+    const std::optional<std::string> guess = guessed_number(member->name, own);
     text += fmt::format("  {}.{} = {};  // {}: nothing in the file sets {} ({})\n", plan.names.object,
-                        member.name, guess.value_or("0"), guess ? "guessed" : "put yours", member.name,
-                        at_line(member.place));
+                        member->name, guess.value_or("0"), guess ? "guessed" : "put yours", member->name,
+                        at_line(member->place));
   }
   return text;
+}
+
+std::vector<std::string> guessed_numbers(const HarnessPlan& plan, const Declarations& declarations) {
+  const GuessContext context = guess_context(plan, declarations);
+  std::vector<std::string> names;
+  for (const Function* function :
+       {called_constructor(plan, declarations), plan.inits.empty() ? nullptr : plan.inits.front()}) {
+    if (function != nullptr) {
+      const std::vector<std::string> more =
+          guessed_arguments(function->parameters, plan, declarations, context).numbers;
+      names.insert(names.end(), more.begin(), more.end());
+    }
+  }
+  for (const Variable* member : open_members(plan, declarations)) {
+    names.push_back(member->name);
+  }
+  for (std::size_t i = 0; i < plan.step.roles.size(); ++i) {
+    if (plan.step.roles[i] == Role::period) {
+      names.push_back(plan.step.function->parameters[i].name);
+    }
+  }
+  return names;
 }
 
 }  // namespace veritrack::certificates::code

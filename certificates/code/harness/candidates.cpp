@@ -66,11 +66,13 @@ std::string why_not(const Declarations& declarations, const Function& function, 
   if (const std::string why = find_roles(declarations, function, roles); !why.empty()) {
     return why;
   }
+  if (has_word(function.name, {"set", "get"})) {
+    return "its name is that of a setter";
+  }
   if (function.writes.empty()) {
     return "it keeps nothing: it writes to no structure and to no variable outside";
   }
-  const bool has_step_name = is_named_like_step(function.name);
-  return is_named_like_init(function.name) && !has_step_name ? "its name is that of a preparation" : "";
+  return is_named_like_init(last_name(function.name)) ? "its name is that of a preparation" : "";
 }
 
 bool writes_its_object(const Function& function, const std::vector<Role>& roles) {
@@ -86,18 +88,18 @@ bool writes_its_object(const Function& function, const std::vector<Role>& roles)
 }
 
 void rate(StepCandidate& step, const std::vector<StepCandidate>& all) {
-  constexpr int kOfName = 4;
+  constexpr int kOfName = 2;
   constexpr int kOfOuter = 3;
   constexpr int kOfObject = 2;
   std::vector<std::string> reasons;
-  if (is_named_like_step(step.function->name)) {
-    step.score += kOfName;
-    reasons.emplace_back("its name");
+  if (const int likeness = step_likeness(last_name(step.function->name)); likeness > 0) {
+    step.score += likeness * kOfName;
+    reasons.emplace_back("from its name");
   }
   if (writes_its_object(*step.function, step.roles)) {
     step.score += kOfObject;
-    reasons.emplace_back(step.function->owner.empty() ? "it writes through its pointer"
-                                                      : "it writes members of its class");
+    reasons.emplace_back(step.function->owner.empty() ? "as it writes through its parameter"
+                                                      : "as it writes members of its class");
   }
   const bool is_called = std::any_of(all.begin(), all.end(), [&](const StepCandidate& other) {
     return other.function != step.function &&
@@ -105,11 +107,14 @@ void rate(StepCandidate& step, const std::vector<StepCandidate>& all) {
   });
   if (!is_called) {
     step.score += kOfOuter;
-    reasons.emplace_back(all.size() > 1 ? "no other such function calls it" : "it is the only one");
+    if (all.size() > 1) {
+      reasons.emplace_back("as no other such function calls it");
+    }
   }
   for (const std::string& reason : reasons) {
     step.why += (step.why.empty() ? "" : ", ") + reason;
   }
+  step.why = step.why.empty() ? "by its parameters" : step.why;
 }
 
 }  // namespace
@@ -173,7 +178,8 @@ std::vector<const Function*> init_candidates(const Declarations& declarations, c
   const Variable* object = object_in_file(declarations, step.object_type());
   std::vector<std::pair<int, const Function*>> rated;
   for (const Function& function : declarations.functions) {
-    const bool is_named_so = is_named_like_init(function.name) && function.name != step.function->name;
+    const bool is_named_so =
+        is_named_like_init(last_name(function.name)) && function.name != step.function->name;
     if (!function.has_body || function.place.file != file || function.is_constructor ||
         function.is_template || !is_named_so) {
       continue;

@@ -127,6 +127,9 @@ class DeclarationReader {
         read_body(each, function);
       }
     }
+    if (function.is_const) {
+      function.writes.erase("this");  // what it calls on its object is const, too
+    }
     result_.functions.push_back(std::move(function));
     return result_.functions.back();
   }

@@ -26,7 +26,8 @@ std::string lower_case(std::string text) {
 
 bool has_product(const Declarations& declarations, const std::string& a, const std::string& b) {
   return std::any_of(declarations.functions.begin(), declarations.functions.end(), [&](const Function& each) {
-    return each.products.count({last_name(a), last_name(b)}) != 0;
+    // Functions that write nothing convert units for others.
+    return !each.writes.empty() && each.products.count({last_name(a), last_name(b)}) != 0;
   });
 }
 
@@ -58,6 +59,16 @@ std::optional<SampleTime> from_macro(const std::string& source_text, const std::
   return std::nullopt;
 }
 
+/// True for a function whose result is a product with the time between samples.
+bool multiplies_by_time(const Declarations& declarations, const FrequencySource& source,
+                        const SampleTime& time) {
+  return std::any_of(declarations.functions.begin(), declarations.functions.end(), [&](const Function& each) {
+    return each.name == source.name && each.has_body &&
+           std::any_of(each.products.begin(), each.products.end(),
+                       [&](const auto& product) { return product.first == last_name(time.name); });
+  });
+}
+
 /// The unit, and why it is taken for that.
 void find_unit(FrequencySource& source, const Declarations& declarations,
                const std::optional<SampleTime>& time, const std::string& line) {
@@ -80,6 +91,9 @@ void find_unit(FrequencySource& source, const Declarations& declarations,
   }
   if (has_word(source.name, {"hz"})) {
     return set(FrequencyUnit::hertz, "Hz, from its name");
+  }
+  if (time && !source.is_result && multiplies_by_time(declarations, source, *time)) {
+    return set(FrequencyUnit::radians_per_sample, "rad/sample, as it multiplies by " + time->name);
   }
   const bool has_turn = has_product(declarations, source.name, "2pi");
   const bool has_time = time && has_product(declarations, source.name, time->name);
@@ -107,23 +121,33 @@ std::set<std::string> written_names(const Declarations& declarations) {
   return names;
 }
 
+/// A function that returns the estimate: of the file, of the object, or a method of a variable of the file.
 void add_functions(const Declarations& declarations, const StepCandidate& step, const HarnessNames& names,
-                   const std::string& file, std::vector<FrequencySource>& into) {
+                   std::vector<FrequencySource>& into) {
   constexpr int kOfFunction = 20;
   for (const Function& function : declarations.functions) {
     const int likeness = frequency_likeness(last_name(function.name));
-    if (likeness < 2 || function.place.file != file || !reads_a_number(function, step, declarations)) {
+    if (likeness < 2) {
       continue;
     }
-    std::string call = function.name;
-    if (!function.owner.empty()) {
-      call = names.object + "." + function.name + "()";
-    } else if (function.parameters.empty()) {
-      call += "()";
-    } else {
-      call += (is_pointer(function.parameters.front().type) ? "(&" : "(") + names.object + ")";
+    std::string call;
+    if (reads_a_number(function, step, declarations)) {
+      if (!function.owner.empty()) {
+        call = names.object + "." + function.name + "()";
+      } else if (function.parameters.empty()) {
+        call = function.name + "()";
+      } else {
+        call =
+            function.name + (is_pointer(function.parameters.front().type) ? "(&" : "(") + names.object + ")";
+      }
+    } else if (!function.owner.empty() && function.parameters.empty() && function.writes.empty() &&
+               function.has_body && !function.is_template && is_number_type(function.result)) {
+      const Variable* variable = object_in_file(declarations, function.owner);
+      call = variable == nullptr ? "" : variable->name + "." + function.name + "()";
     }
-    into.push_back({call, function.name, function.place, {}, {}, kOfFunction + likeness, false});
+    if (!call.empty()) {
+      into.push_back({call, function.name, function.place, {}, {}, kOfFunction + likeness, false});
+    }
   }
 }
 
@@ -165,7 +189,7 @@ std::vector<FrequencySource> frequency_sources(const Declarations& declarations,
   constexpr int kOfWritten = 10;
   constexpr int kOfOutput = 12;
   std::vector<FrequencySource> sources;
-  add_functions(declarations, step, names, file, sources);
+  add_functions(declarations, step, names, sources);
   const std::set<std::string> written = written_names(declarations);
   for (const Member& member : members_of(declarations, names.object, step.object_type(), file)) {
     const int likeness = frequency_likeness(last_name(member.name));

@@ -36,7 +36,7 @@ std::string comment(const std::string& text, const std::string& indent) {
 }
 
 std::string also(const std::vector<std::string>& others) {
-  return others.empty() ? "no other" : fmt::format("others: {}", fmt::join(others, ", "));
+  return others.empty() ? "no other is possible" : fmt::format("others: {}", fmt::join(others, ", "));
 }
 
 std::string type_of_step_number(const HarnessPlan& plan) {
@@ -66,14 +66,8 @@ std::string object_declaration(const HarnessPlan& plan, const Declarations& decl
   std::string text;
   std::string arguments;
   const GuessContext context = guess_context(plan, declarations);
-  const Function* chosen = nullptr;
-  for (const Function& function : declarations.functions) {
-    if (function.is_constructor && function.owner == plan.step.object_type() &&
-        (chosen == nullptr || function.parameters.size() < chosen->parameters.size())) {
-      chosen = &function;
-    }
-  }
-  if (chosen != nullptr && !chosen->parameters.empty()) {
+  const Function* chosen = called_constructor(plan, declarations);
+  if (chosen != nullptr) {
     const GuessedArguments guessed = guessed_arguments(chosen->parameters, plan, declarations, context);
     text += comment(fmt::format("Guessed: {} of the constructor ({}). {}", guessed.summary,
                                 at_line(chosen->place), guessed.advice),
@@ -125,7 +119,7 @@ std::string setup_text(const HarnessPlan& plan, const Declarations& declarations
   return text + members_left_open(plan, declarations, context) + "}\n";
 }
 
-std::string step_text(const HarnessPlan& plan) {
+std::string step_text(const HarnessPlan& plan, const Declarations& declarations) {
   const Function& function = *plan.step.function;
   const std::string number = type_of_step_number(plan);
   std::vector<std::string> parameters, arguments;
@@ -146,7 +140,9 @@ std::string step_text(const HarnessPlan& plan) {
     } else if (role == Role::output) {
       arguments.push_back((is_pointer(parameter.type) ? "&" : "") + plan.names.outputs + parameter.name);
     } else {
-      arguments.push_back(object_argument(parameter, role == Role::object ? plan.names.object : ""));
+      const bool is_object = role == Role::object;
+      arguments.push_back(object_argument(
+          parameter, is_object ? plan.names.object : object_in_file(declarations, parameter.type)->name));
     }
   }
   std::vector<std::string> others;
@@ -155,7 +151,7 @@ std::string step_text(const HarnessPlan& plan) {
   }
   std::string text = fmt::format("void step({}) {{\n", fmt::join(parameters, ", "));
   text += comment(
-      fmt::format("Guessed: {} ({}) takes a sample: {}; {}.", function.full_name(), at_line(function.place),
+      fmt::format("Guessed: {} ({}) takes a sample, {}; {}.", function.full_name(), at_line(function.place),
                   plan.step.why, others.empty() ? also(others) : also(others) + "; --function NAME chooses"),
       "  ");
   if (std::count(plan.step.roles.begin(), plan.step.roles.end(), Role::angle) != 0) {
@@ -165,7 +161,7 @@ std::string step_text(const HarnessPlan& plan) {
         "  ");
   }
   if (std::count(plan.step.roles.begin(), plan.step.roles.end(), Role::period) != 0) {
-    text += comment(fmt::format("Guessed: {} samples a second.", plan.sample_rate), "  ");
+    text += comment(fmt::format("Guessed: {:.6g} samples a second.", plan.sample_rate), "  ");
   }
   return text + fmt::format("  {}{}{}({});\n}}\n",
                             plan.frequencies.front().is_result ? plan.names.result + " = " : "",
@@ -224,7 +220,7 @@ std::string harness_text(const HarnessPlan& plan, const Declarations& declaratio
   }
   const std::string variables = object_declaration(plan, declarations) + output_declarations(plan);
   return text + (variables.empty() ? "" : "\n" + variables) + "\n" + setup_text(plan, declarations) + "\n" +
-         step_text(plan) + "\n" + frequency_text(plan);
+         step_text(plan, declarations) + "\n" + frequency_text(plan);
 }
 
 }  // namespace veritrack::certificates::code

@@ -141,7 +141,7 @@ HarnessPlan harness_plan(const Declarations& declarations, const std::string& fi
   HarnessPlan plan;
   plan.step = candidates.taken[chosen];
   if (!function.empty()) {
-    plan.step.why = "--function";
+    plan.step.why = "by --function";
   }
   candidates.taken.erase(candidates.taken.begin() + static_cast<std::ptrdiff_t>(chosen));
   plan.other_steps = std::move(candidates.taken);

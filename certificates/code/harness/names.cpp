@@ -62,14 +62,18 @@ bool has_word(std::string_view name, std::initializer_list<std::string_view> wor
   });
 }
 
-bool is_named_like_step(std::string_view name) {
-  return has_word(name, {"step", "update", "run", "process", "pll", "fll", "track", "tracker", "feed", "tick",
-                         "iterate", "sample", "execute", "push", "filter", "estimate", "loop", "isr"});
+int step_likeness(std::string_view name) {
+  if (has_word(name, {"step", "update", "run", "process", "track", "feed", "tick", "iterate", "execute",
+                      "push", "isr"})) {
+    return 2;
+  }
+  return has_word(name, {"pll", "fll", "tracker", "sample", "filter", "estimate", "loop"}) ? 1 : 0;
 }
 
 bool is_named_like_init(std::string_view name) {
-  return has_word(name, {"init", "initialize", "initialise", "setup", "reset", "configure", "config",
-                         "create", "construct", "begin", "start", "tune", "ctor"});
+  const bool is_certain = has_word(name, {"init", "initialize", "initialise", "setup", "reset", "configure",
+                                          "create", "construct", "ctor"});
+  return is_certain || (step_likeness(name) < 2 && has_word(name, {"config", "begin", "start", "tune"}));
 }
 
 bool is_named_like_period(std::string_view name) {

@@ -16,9 +16,11 @@ namespace veritrack::certificates::code {
 
 [[nodiscard]] bool has_word(std::string_view name, std::initializer_list<std::string_view> words);
 
-/// Of a step, of a function that prepares one, of the time between samples in seconds, of samples a second,
+/// How much a name suggests a step: 2 by what it does, 1 by what it is about, 0 not at all.
+[[nodiscard]] int step_likeness(std::string_view name);
+
+/// Of a function that prepares a step, of the time between samples in seconds, of samples a second,
 /// of an angle.
-[[nodiscard]] bool is_named_like_step(std::string_view name);
 [[nodiscard]] bool is_named_like_init(std::string_view name);
 [[nodiscard]] bool is_named_like_period(std::string_view name);
 [[nodiscard]] bool is_named_like_sample_rate(std::string_view name);

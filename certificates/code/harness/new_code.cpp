@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "certificates/code/compiler.hpp"
+#include "certificates/code/harness/arguments_guessed.hpp"
 #include "certificates/code/harness/harness.hpp"
 #include "certificates/code/harness/harness_plan.hpp"
 #include "certificates/code/harness/syntax_tree.hpp"
@@ -135,6 +136,7 @@ NewCode new_code(const NewCodeRequest& request) {
   result.samples = plan.step.samples();
   result.sample_rate = plan.sample_rate;
   result.is_guessed_rate = plan.is_guessed_rate;
+  result.guessed = fmt::format("{}", fmt::join(guessed_numbers(plan, declarations), ", "));
   return result;
 }
 

@@ -26,6 +26,7 @@ struct NewCode {
   int samples = 1;           ///< or 2
   double sample_rate = 0.0;  ///< Hz; 0: the program has no time
   bool is_guessed_rate = false;
+  std::string guessed;  ///< names of numbers that the harness sets without a ground in the file
 };
 
 /// Finds the step in a file, and writes around it. Throws InputError, at a place of the file, when it does

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "certificates/code/compilation.hpp"
@@ -78,11 +80,14 @@ std::string new_code_design(const NewCode& code, double start) {
       "#   veritrack explain KEY    what a key means; docs/firmware.md: what is proved of code\n\n"
       "name = \"Code of {0}\"\n"
       "tracker = \"model\"\n"
-      "# source = \"where the numbers come from\"\n\n"
+      "{4}\n\n"
       "[code] # setup, step and frequency; the step is {2}\n"
       "files = {3}\n",
       code.source, code.harness.empty() ? "the file" : code.harness.filename().string(), code.step,
-      quoted_list(code.files));
+      quoted_list(code.files),
+      code.guessed.empty() ? std::string("# source = \"where the numbers come from\"")
+                           : fmt::format("source = \"{}: guesses of veritrack new, in {}\"", code.guessed,
+                                         code.harness.filename().string()));
   text += code.flags.empty() ? "# flags = ['-DMOTOR=3'] # of your build: -D, -U, -I, -std=\n"
                              : fmt::format("flags = {} # of your build\n", quoted_list(code.flags));
   text += fmt::format(
@@ -112,8 +117,14 @@ std::string new_code_design(const NewCode& code, double start) {
 
 double start_frequency(const NewCode& code, const std::filesystem::path& design) {
   CodeTable table;
+  // The place of [code] in the design that is going to be written.
+  const std::string text = new_code_design(code, 0.0);
+  const auto lines =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("\nfiles = ")), '\n');
+  constexpr int kColumn = 9;
+  table.position = {static_cast<int>(lines) + 2, kColumn};
   for (const std::string& file : code.files) {
-    table.files.push_back({file, {}});
+    table.files.push_back({file, table.position});
   }
   for (const std::string& flag : code.flags) {
     table.flags.push_back({flag, {}});
@@ -128,7 +139,7 @@ double start_frequency(const NewCode& code, const std::filesystem::path& design)
         place.file < 0 ? design
                        : std::filesystem::path(listing.files.at(static_cast<std::size_t>(place.file)));
     throw InputError((file.is_absolute() || place.file < 0 ? file : design.parent_path() / file).string(),
-                     {place.line, place.column}, error.what());
+                     place.file < 0 ? table.position : Position{place.line, place.column}, error.what());
   }
   std::vector<std::uint64_t> states;
   for (const trackers::code::State& state : listing.states) {

@@ -66,7 +66,7 @@ std::string why_not(const Declarations& declarations, const Function& function, 
   if (const std::string why = find_roles(declarations, function, roles); !why.empty()) {
     return why;
   }
-  if (has_word(function.name, {"set", "get"})) {
+  if (has_word(function.name, {"set", "get", "preset"})) {
     return "its name is that of a setter";
   }
   if (function.writes.empty()) {

@@ -77,9 +77,32 @@ class DeclarationReader {
     }
   }
 
-  Declarations take() { return std::move(result_); }
+  Declarations take() {
+    // clang gives a method of an instance a body where something uses it; the template has one.
+    for (Function& function : result_.functions) {
+      for (const Function& pattern : result_.functions) {
+        const bool is_its_own =
+            pattern.is_template && pattern.has_body && pattern.place.file == function.place.file &&
+            pattern.place.line == function.place.line && pattern.place.column == function.place.column;
+        if (is_its_own && !function.is_template && !function.has_body) {
+          copy_body(pattern, function);
+        }
+      }
+    }
+    return std::move(result_);
+  }
 
  private:
+  static void copy_body(const Function& from, Function& to) {
+    to.has_body = true;
+    to.writes = from.writes;
+    to.written_members = from.written_members;
+    to.assigned = from.assigned;
+    to.products = from.products;
+    to.calls = from.calls;
+    to.uses = from.uses;
+  }
+
   void read_all(const json& node, const std::string& scope, int depth) {
     if (const auto inner = node.find("inner"); inner != node.end()) {
       for (const json& each : *inner) {

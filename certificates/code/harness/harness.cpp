@@ -178,10 +178,11 @@ std::string frequency_text(const HarnessPlan& plan) {
   }
   std::string text =
       fmt::format("{} frequency({}) {{\n", type_of_step_number(plan), plan.is_cpp ? "" : "void");
-  text += comment(
-      fmt::format("Guessed: {}{} ({}) is the estimate, {}; {}.", source.is_result ? "the result of " : "",
-                  source.name, at_line(source.place), source.why_unit, also(others)),
-      "  ");
+  text += comment(source.name.empty() ? fmt::format("Not found: the estimate; {}.", source.why_unit)
+                                      : fmt::format("Guessed: {}{} ({}) is the estimate, {}; {}.",
+                                                    source.is_result ? "the result of " : "", source.name,
+                                                    at_line(source.place), source.why_unit, also(others)),
+                  "  ");
   std::string factor;
   if (source.unit == FrequencyUnit::hertz) {
     factor = is_double ? " * 6.283185307179586" : " * 6.28318531f";

@@ -121,7 +121,6 @@ FrequencySource missing_frequency(const HarnessPlan& plan) {
   const std::set<std::string>& written = plan.step.function->written_members;
   FrequencySource source;
   source.expression = "PUT_FREQUENCY_HERE";
-  source.name = "nothing";
   source.place = plan.step.function->place;
   source.why_unit = fmt::format(
       "as no name is like freq, omega, speed, w or rate: put a formula, in rad/sample, of {}",

@@ -61,7 +61,8 @@ class DeclarationReader {
     const std::string kind = node.value("kind", "");
     if (kind == "FunctionDecl") {
       add_function(node, scope, "", false);
-    } else if (kind == "CXXMethodDecl" && node.contains("parentDeclContextId")) {
+    } else if ((kind == "CXXMethodDecl" || kind == "CXXConstructorDecl") &&
+               node.contains("parentDeclContextId")) {
       add_outside_its_class(node);
     } else if (kind == "VarDecl") {
       result_.variables.push_back(variable(node, scope));
@@ -245,7 +246,7 @@ const Record* Declarations::record_of(const std::string& type) const {
   // "(unnamed struct at file.c:8:8)"
   const std::size_t column = name.rfind(':');
   if (const std::size_t line = column == std::string::npos ? column : name.rfind(':', column - 1);
-      name.starts_with("(unnamed") && line != std::string::npos) {
+      name.find("(unnamed") != std::string::npos && line != std::string::npos) {
     name = "(unnamed at" + name.substr(line);
   }
   constexpr int kMostAliases = 8;

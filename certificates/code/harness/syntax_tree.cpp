@@ -131,7 +131,7 @@ class OwnDeclarations : public nlohmann::json_sax<json> {
 
 }  // namespace
 
-std::vector<json> own_declarations(std::string_view dump, const std::filesystem::path& source) {
+std::vector<json> own_declarations_in(std::string_view dump, const std::filesystem::path& source) {
   OwnDeclarations reader(source);
   if (!json::sax_parse(dump, &reader)) {
     throw std::invalid_argument("not a syntax tree");
@@ -148,7 +148,7 @@ std::vector<json> own_declarations(const std::filesystem::path& source,
   if (!run.has_succeeded()) {
     refuse_compilation(run.errors, source);
   }
-  return own_declarations(std::string_view(run.output), source);
+  return own_declarations_in(run.output, source);
 }
 
 }  // namespace veritrack::certificates::code

@@ -18,7 +18,7 @@ TEST_CASE("declarations of the system's headers are left out, and each place has
         {"kind": "VarDecl", "loc": {"offset": 7, "file": "pll.h", "line": 5, "col": 9, "includedFrom": {"file": "pll.c"}},
          "range": {}, "name": "w"},
         {"kind": "VarDecl", "loc": {"offset": 9, "col": 12}, "range": {}, "name": "v"}]})";
-  const std::vector<nlohmann::json> kept = own_declarations(std::string_view(dump), "pll.c");
+  const std::vector<nlohmann::json> kept = own_declarations_in(dump, "pll.c");
   REQUIRE(kept.size() == 2);
   CHECK(kept[0].at("name") == "w");
   CHECK(kept[1].at("name") == "v");
@@ -27,7 +27,7 @@ TEST_CASE("declarations of the system's headers are left out, and each place has
 }
 
 TEST_CASE("what is no tree, and what does not compile, are errors") {
-  CHECK_THROWS_AS((void)own_declarations(std::string_view("{\"inner\": ["), "pll.c"), std::invalid_argument);
+  CHECK_THROWS_AS((void)own_declarations_in("{\"inner\": [", "pll.c"), std::invalid_argument);
   const WrittenCode code("int x;\nfloat f(float x) { return x }\n");
   try {
     (void)own_declarations(code.file(), {});

@@ -1,10 +1,15 @@
 // veritrack new: a design file to begin with.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
+#include <vector>
 
 #include "certificates/code/harness/new_code.hpp"
+#include "certificates/design/design_format.hpp"
+#include "certificates/design/design_reader.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/request_error.hpp"
 #include "certificates/document/output_files.hpp"
@@ -30,17 +35,28 @@ void write_new(const std::filesystem::path& file, std::string_view text) {
   files.commit();
 }
 
+const certificates::code::CodeWriter& code_writer_of(const std::string& tracker) {
+  std::vector<std::string_view> with;
+  for (const certificates::DesignFormat* format : certificates::design_formats()) {
+    if (format->code_writer != nullptr && format->tracker == tracker) {
+      return *format->code_writer;
+    }
+    if (format->code_writer != nullptr) {
+      with.push_back(format->tracker);
+    }
+  }
+  throw certificates::RequestError(
+      fmt::format("--c with the tracker {}; allowed: {}", tracker, fmt::join(with, ", ")));
+}
+
 ExitStatus run_new_code(const NewOptions& options) {
   namespace code = certificates::code;
-  if (options.tracker != "model") {
-    throw certificates::RequestError(
-        fmt::format("--c with {}; allowed: veritrack new model --c FILE", options.tracker));
-  }
+  const code::CodeWriter& writer = code_writer_of(options.tracker);
   const std::filesystem::path design = options.output.empty()
                                            ? std::filesystem::path(options.code).replace_extension(".toml")
                                            : std::filesystem::path(options.output);
   require_new(design);
-  const code::NewCode made = code::new_code({options.code, options.function, options.flags, design});
+  const code::NewCode made = writer.find({options.code, options.function, options.flags, design});
   if (!made.harness_text.empty()) {
     require_new(made.harness);
     write_new(made.harness, made.harness_text);
@@ -50,17 +66,13 @@ ExitStatus run_new_code(const NewOptions& options) {
   } else {
     fmt::print("{} has setup, step and frequency itself: no harness is needed\n", options.code);
   }
-  double start = 0.0;
-  std::string objection;
+  write_new(design, writer.design(made, 0.0));
   try {
-    start = code::start_frequency(made, design);
+    static_cast<void>(certificates::read_design_file(design.string()));
+    write_new(design, writer.design(made, writer.start(made, design)));  // its band is around the start
   } catch (const certificates::InputError& error) {
-    objection = error.what();
-  }
-  write_new(design, code::new_code_design(made, start));
-  if (!objection.empty()) {
     fmt::print("{}: a design for it, which is not ready\n", design.string());
-    fmt::print(stderr, "{}\n", objection);
+    fmt::print(stderr, "{}\n", error.what());
     return not_proved;
   }
   fmt::print("{0}: a design for it; next: veritrack show {0}, veritrack certify {0}\n", design.string());

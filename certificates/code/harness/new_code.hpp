@@ -36,8 +36,17 @@ struct NewCode {
 /// The design file. `start` is the frequency in rad/sample at which the program starts; 0: not known.
 [[nodiscard]] std::string new_code_design(const NewCode& code, double start);
 
-/// The frequency at which the program of a design starts, rad/sample. Throws InputError when the files do not
-/// compile, or no rule makes a recursion of them.
+/// The frequency at which the program of a design starts, rad/sample; 0: not known. Throws InputError when
+/// the files do not compile.
 [[nodiscard]] double start_frequency(const NewCode& code, const std::filesystem::path& design);
+
+/// These functions, for those who reach them through the format of a tracker (DesignFormat): a build without
+/// that tracker has none of them.
+struct CodeWriter {
+  NewCode (*find)(const NewCodeRequest& request);
+  std::string (*design)(const NewCode& code, double start);
+  double (*start)(const NewCode& code, const std::filesystem::path& design);
+};
+inline constexpr CodeWriter kCodeWriter{new_code, new_code_design, start_frequency};
 
 }  // namespace veritrack::certificates::code

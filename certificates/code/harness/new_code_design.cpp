@@ -9,8 +9,6 @@
 
 #include "certificates/code/compilation.hpp"
 #include "certificates/code/harness/new_code.hpp"
-#include "certificates/code/recursion.hpp"
-#include "certificates/design/input_error.hpp"
 #include "trackers/code/listing_run.hpp"
 
 namespace veritrack::certificates::code {
@@ -117,30 +115,14 @@ std::string new_code_design(const NewCode& code, double start) {
 
 double start_frequency(const NewCode& code, const std::filesystem::path& design) {
   CodeTable table;
-  // The place of [code] in the design that is going to be written.
-  const std::string text = new_code_design(code, 0.0);
-  const auto lines =
-      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("\nfiles = ")), '\n');
-  constexpr int kColumn = 9;
-  table.position = {static_cast<int>(lines) + 2, kColumn};
   for (const std::string& file : code.files) {
-    table.files.push_back({file, table.position});
+    table.files.push_back({file, {}});
   }
   for (const std::string& flag : code.flags) {
     table.flags.push_back({flag, {}});
   }
   const CompiledCode program = compiled(table, design);
   const trackers::code::Listing& listing = program.listing;
-  try {
-    static_cast<void>(recursion_of(listing));
-  } catch (const NoRecursion& error) {
-    const trackers::code::Place place = error.place();
-    const std::filesystem::path file =
-        place.file < 0 ? design
-                       : std::filesystem::path(listing.files.at(static_cast<std::size_t>(place.file)));
-    throw InputError((file.is_absolute() || place.file < 0 ? file : design.parent_path() / file).string(),
-                     place.file < 0 ? table.position : Position{place.line, place.column}, error.what());
-  }
   std::vector<std::uint64_t> states;
   for (const trackers::code::State& state : listing.states) {
     states.push_back(state.start_bits);

@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
 #include "certificates/code/harness/constants.hpp"
 #include "certificates/code/harness/function_body.hpp"
+#include "certificates/code/harness/tree_nodes.hpp"
 #include "certificates/code/harness/types.hpp"
 
 namespace veritrack::certificates::code {
@@ -16,32 +16,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kMostNested = 32;
-
-std::string type_of(const json& node) {
-  const auto type = node.find("type");
-  if (type == node.end()) {
-    return {};
-  }
-  const std::string spelled = type->value("qualType", "");
-  const std::string plain = type->value("desugaredQualType", spelled);
-  // A typedef of an array or a function says less when it is written out.
-  std::string result =
-      plain.find("(*)") == std::string::npos && plain.find('[') == std::string::npos ? plain : spelled;
-  constexpr std::string_view kNoName = "(anonymous namespace)::";
-  for (std::size_t at = 0; (at = result.find(kNoName)) != std::string::npos;) {
-    result.erase(at, kNoName.size());
-  }
-  return result;
-}
-
-DeclarationPlace place_of(const json& node) {
-  const auto loc = node.find("loc");
-  if (loc == node.end()) {
-    return {};
-  }
-  const json& place = loc->contains("expansionLoc") ? loc->at("expansionLoc") : *loc;
-  return {place.value("file", ""), place.value("line", 0), place.value("col", 0)};
-}
 
 std::string place_suffix(const DeclarationPlace& place) {
   return ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ")";
@@ -113,7 +87,7 @@ class DeclarationReader {
   }
 
   static Variable variable(const json& node, const std::string& scope) {
-    Variable result{scope + node.value("name", ""), type_of(node), place_of(node), {}, {}};
+    Variable result{scope + node.value("name", ""), type_of_node(node), place_of_node(node), {}, {}};
     const auto inner = node.find("inner");
     if (inner == node.end() || inner->empty()) {
       return result;
@@ -135,17 +109,18 @@ class DeclarationReader {
     Function function;
     function.name = scope + node.value("name", "");
     function.owner = owner;
-    const std::string type = type_of(node);
+    const std::string type = type_of_node(node);
     function.result = type.substr(0, type.find(" ("));
     function.is_const = type.find(") const") != std::string::npos;
-    function.place = place_of(node);
+    function.place = place_of_node(node);
     function.is_static = node.value("storageClass", "") == "static";
     function.is_constructor = node.value("kind", "") == "CXXConstructorDecl";
     function.is_template = is_template;
     for (const json& each : node.value("inner", json::array())) {
       const std::string kind = each.value("kind", "");
       if (kind == "ParmVarDecl") {
-        function.parameters.push_back({each.value("name", ""), type_of(each), place_of(each), {}, {}});
+        function.parameters.push_back(
+            {each.value("name", ""), type_of_node(each), place_of_node(each), {}, {}});
       } else if (kind == "CompoundStmt") {
         function.has_body = true;
         read_body(each, function);
@@ -167,7 +142,7 @@ class DeclarationReader {
 
   void add_record(const json& node, const std::string& scope, int depth, bool is_template) {
     Record record;
-    record.place = place_of(node);
+    record.place = place_of_node(node);
     const std::string own_name = node.value("name", "");
     record.name = own_name.empty() ? unnamed(record.place) : scope + own_name + arguments_of(node);
     owners_[node.value("id", "")] = record.name;
@@ -198,7 +173,7 @@ class DeclarationReader {
     for (const json& each : node.value("inner", json::array())) {
       if (each.value("kind", "") == "TemplateArgument") {
         text += text.empty() ? "<" : ", ";
-        text += each.contains("value") ? each.at("value").dump() : type_of(each);
+        text += each.contains("value") ? each.at("value").dump() : type_of_node(each);
       }
     }
     return text.empty() ? text : text + ">";
@@ -232,7 +207,7 @@ class DeclarationReader {
         }
       }
     }
-    result_.aliases[name] = type_of(node);
+    result_.aliases[name] = type_of_node(node);
   }
 
   Declarations result_;

@@ -70,7 +70,8 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
      "  veritrack explain ekf/guarantee         a claim"},
     {"new",
      "  veritrack new quadrature-ekf my-design.toml\n"
-     "  veritrack new model > my-loop.toml"},
+     "  veritrack new model > my-loop.toml\n"
+     "  veritrack new model --c pll.c pll.toml  a harness and a design for the loop in pll.c"},
     {"completions", "  veritrack completions bash > ~/.local/share/bash-completion/completions/veritrack"},
     {"manual", "  veritrack manual | man -l -"},
 }};
@@ -350,8 +351,23 @@ void add_make_new(CLI::App& app, Arguments& into) {
                                      certificates::others_are_left_out());
           },
           fmt::format("{{{}}}", fmt::join(certificates::templates_for(), ","))));
-  make_new->add_option("FILE", into.new_design.output,
-                       "the file to write, which must not exist (default: standard output)");
+  make_new->add_option(
+      "FILE", into.new_design.output,
+      "the file to write, which must not exist (default: standard output; with --c, that of the "
+      "code with .toml)");
+  CLI::Option* code = make_new->add_option(
+      "--c", into.new_design.code,
+      "model: a file of C or C++ that holds your loop: also write a harness for it, NAME-harness.c "
+      "(docs/firmware.md)");
+  make_new
+      ->add_option("--function", into.new_design.function,
+                   "of the file of --c: the function that takes a sample (default: the likeliest)")
+      ->needs(code);
+  make_new
+      ->add_option("--flag", into.new_design.flags,
+                   "of its compiler, such as --flag=-DMOTOR=3; may be repeated")
+      ->allow_extra_args(false)
+      ->needs(code);
 }
 
 void add_completions(CLI::App& app, Arguments& into) {

@@ -107,7 +107,10 @@ struct ExplainOptions {
 
 struct NewOptions {
   std::string tracker;
-  std::string output;  ///< empty: standard output
+  std::string output;              ///< empty: standard output, or beside the file of --c
+  std::string code;                ///< --c: a file of C or C++ that a harness and a design are written for
+  std::string function;            ///< of it, that takes a sample; empty: the likeliest
+  std::vector<std::string> flags;  ///< of the compiler
 };
 
 [[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);

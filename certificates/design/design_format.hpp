@@ -69,6 +69,10 @@ struct TableObjection {
   std::optional<Position> position{};  ///< where, when not at the beginning of the table
 };
 
+namespace code {
+struct CodeWriter;
+}
+
 /// The tables of a tracker's design file.
 struct DesignFormat {
   std::string_view tracker;    ///< as the key `tracker` names it
@@ -81,6 +85,8 @@ struct DesignFormat {
   /// does. Throws InputError.
   std::optional<TableObjection> (*complete)(std::any& tables,
                                             const std::filesystem::path& design_file) = nullptr;
+  /// Writes designs for files of code (certificates/code/harness/new_code.hpp); null when it has no [code].
+  const code::CodeWriter* code_writer = nullptr;
 };
 
 /// The text to add to a list of all trackers that this build knows: how to get the others, if there are any.

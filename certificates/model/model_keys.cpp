@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/code/harness/new_code.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/key_readers.hpp"
 #include "certificates/design/nearest_key.hpp"
@@ -414,8 +415,9 @@ std::optional<TableObjection> complete_model(std::any& tables, const std::filesy
 }  // namespace
 
 const DesignFormat& model_format() {
-  static const DesignFormat format{"model", [] { return std::any(ModelTables{}); }, bind_model_tables,
-                                   objection_to_model, complete_model};
+  static const DesignFormat format{"model",           [] { return std::any(ModelTables{}); },
+                                   bind_model_tables, objection_to_model,
+                                   complete_model,    &code::kCodeWriter};
   return format;
 }
 

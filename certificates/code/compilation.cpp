@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <list>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -66,9 +67,41 @@ std::vector<std::string> arguments_for(const CodeTable& code, const fs::path& pa
   return arguments;
 }
 
+constexpr std::string_view kInNames = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/+-";
+
+/// Adds the files that this one includes, but for those of the system, which are not the user's.
+void add_included(const CodeTable& code, const SourceText& file, const fs::path& folder,
+                  const fs::path& design_file, std::vector<CodeFile>& files) {
+  const fs::path path = (folder / file.text).lexically_normal();
+  std::vector<std::string> arguments = arguments_for(code, path, folder);
+  arguments.insert(arguments.end(), {"-MM", "-MT", "all"});
+  const ProgramRun listed = run_limited(kCompiler, arguments, design_file, file.position);
+  if (!listed.has_succeeded()) {
+    refuse_compilation(listed.errors, path);
+  }
+  std::istringstream words(listed.output);
+  for (std::string word; words >> word;) {
+    if (word == "all:" || word == "\\") {
+      continue;
+    }
+    const std::string name =
+        fs::path(word).lexically_normal().lexically_relative(folder.lexically_normal()).string();
+    if (std::any_of(files.begin(), files.end(), [&](const CodeFile& each) { return each.name == name; }) ||
+        std::any_of(code.files.begin(), code.files.end(),
+                    [&](const SourceText& each) { return fs::path(each.text).lexically_normal() == name; })) {
+      continue;
+    }
+    if (name.empty() || name.find_first_not_of(kInNames) != std::string::npos) {
+      refuse(design_file, file.position,
+             fmt::format("{} includes {}; allowed: files with names of letters, digits and ._/+-", file.text,
+                         printable(word, 60)));
+    }
+    files.push_back({name, sha256(read_file(folder / name, design_file, file.position)), true});
+  }
+}
+
 /// Names stand in sentences, each once.
 void require_names(const CodeTable& code, const fs::path& design_file) {
-  constexpr std::string_view kInNames = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/+-";
   for (auto file = code.files.begin(); file != code.files.end(); ++file) {
     const bool is_twice = std::any_of(code.files.begin(), file,
                                       [&](const SourceText& each) { return each.text == file->text; });
@@ -128,6 +161,9 @@ CompiledCode compiled(const CodeTable& code, const fs::path& design_file) {
     const MemoryFile& module = modules.emplace_back(compilation.output);
     handed_over.push_back(&module);
     paths.push_back(module.path());
+  }
+  for (const SourceText& file : code.files) {
+    add_included(code, file, folder, design_file, result.files);
   }
   const std::string version = run_limited(kCompiler, {"--version"}, design_file, code.position).output;
   result.compiler = version.substr(0, version.find('\n'));

@@ -21,10 +21,11 @@ struct CodeTable {
   [[nodiscard]] bool is_given() const { return !files.empty(); }
 };
 
-/// A file of the user's, by its name in the design and what it holds.
+/// A file of the user's, by its name from the folder of the design and what it holds.
 struct CodeFile {
   std::string name;
   std::string sha256;
+  bool is_included = false;  ///< by others, and not named in the design
 };
 
 struct CompiledCode {

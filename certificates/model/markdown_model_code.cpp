@@ -20,7 +20,8 @@ std::string as_code(const std::string& text) {
 std::string files_table(const code::CompiledCode& compiled, const code::CodeTable& code) {
   std::vector<std::vector<std::string>> rows;
   for (const code::CodeFile& file : compiled.files) {
-    rows.push_back({"file, and its SHA-256", fmt::format("`{}`, `{}`", file.name, file.sha256)});
+    rows.push_back({file.is_included ? "file that these include" : "file, and its SHA-256",
+                    fmt::format("`{}`, `{}`", file.name, file.sha256)});
   }
   rows.push_back({"compiler", as_code(compiled.compiler)});
   std::string flags;

@@ -140,10 +140,12 @@ namespace {
 /// The listing is what is verified; files and compiler say where it comes from.
 Json code_json(const code::CodeTable& code, const code::CompiledCode& compiled) {
   Json files = Json::array();
+  Json included = Json::array();
   for (const code::CodeFile& file : compiled.files) {
-    files.push_back({{"name", file.name}, {"sha256", file.sha256}});
+    (file.is_included ? included : files).push_back({{"name", file.name}, {"sha256", file.sha256}});
   }
   return {{"files", files},
+          {"included", included},
           {"flags", texts_json(code.flags)},
           {"compiler", compiled.compiler},
           {"listing", compiled.listing_text}};

@@ -8,6 +8,7 @@
 #include "checker/code/formula_graph.hpp"
 #include "checker/code/listing.hpp"
 #include "checker/code/listing_match.hpp"
+#include "checker/document/code_files.hpp"
 
 namespace veritrack::checker {
 
@@ -27,9 +28,9 @@ std::vector<std::string> listed_texts(const Tree& list) {
 void check_files(const Tree& code, Objections& objections) {
   constexpr std::size_t kDigits = 64;
   std::set<std::string> names;
-  for (const Tree& file : code.at("files").elements()) {
-    const std::string& name = file.at("name").text();
-    const std::string& digest = file.at("sha256").text();
+  for (const Tree* file : code_files(code)) {
+    const std::string& name = file->at("name").text();
+    const std::string& digest = file->at("sha256").text();
     if (name.empty() || name.find_first_not_of(kInNames) != std::string::npos || !names.insert(name).second) {
       objections.emplace_back("code: a file with a name that is not allowed, or there twice");
     }
@@ -37,7 +38,7 @@ void check_files(const Tree& code, Objections& objections) {
       objections.emplace_back("code: sha256 is not 64 hexadecimal digits");
     }
   }
-  if (names.empty()) {
+  if (code.at("files").elements().empty()) {
     objections.emplace_back("code without files");
   }
   for (const Tree& flag : code.at("flags").elements()) {
@@ -111,12 +112,12 @@ std::string words_of_arithmetic(const Tree& design, bool is_rounded) {
     return words;
   }
   constexpr std::size_t kDigitsShown = 16;
-  const std::vector<Tree>& files = code->at("files").elements();
+  const std::vector<const Tree*> files = code_files(*code);
   words += " of the listing of `step` and `frequency` in ";
   for (std::size_t i = 0; i < files.size(); ++i) {
     words += i == 0 ? "" : i + 1 == files.size() ? " and " : ", ";
-    words += files[i].at("name").text() + " (SHA-256 " +
-             files[i].at("sha256").text().substr(0, kDigitsShown) + "...)";
+    words += files[i]->at("name").text() + " (SHA-256 " +
+             files[i]->at("sha256").text().substr(0, kDigitsShown) + "...)";
   }
   const long before = read_listing(code->at("listing").text()).steps_before;
   if (before > 0) {

@@ -123,6 +123,16 @@ class Code(unittest.TestCase):
         self.assertEqual(result.returncode, 3)
         self.assertIn("pll.c", result.stdout)
 
+    def test_included_files_are_named_and_compared(self):
+        genuine = self.certificate()
+        self.assertEqual([file["name"] for file in genuine["design"]["code"]["included"]], ["pll.h"])
+        self.assertIn("pll.h (SHA-256 ", (self.folder / "out" / "certificate.md").read_text())
+        with open(self.folder / "pll.h", "a", encoding="utf-8") as file:
+            file.write("/* changed */\n")
+        result = verify(self.folder / "out" / "certificate.json", "--design", self.design)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("pll.h", result.stdout)
+
     def message(self, source):
         (self.folder / "loop.c").write_text(source)
         text = self.design.read_text().replace("files = ['pll.c', 'harness.c']", "files = ['loop.c']")

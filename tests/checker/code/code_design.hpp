@@ -35,6 +35,7 @@ struct CodeDesign {
               {"frequency", frequency}}},
             {"code",
              {{"files", {{{"name", "loop.c"}, {"sha256", digest}}}},
+              {"included", nlohmann::json::array()},
               {"flags", nlohmann::json::array()},
               {"compiler", "clang"},
               {"listing", listing}}}};

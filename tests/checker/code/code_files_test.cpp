@@ -108,5 +108,17 @@ TEST_CASE("names and digests of files are plain") {
   }
 }
 
+TEST_CASE("files that are included are in the sentence, and compared") {
+  nlohmann::json with = design();
+  with["code"]["included"] = {{{"name", "loop.h"}, {"sha256", sha256("")}}};
+  CHECK(words_of_arithmetic(read_json(with.dump()), false).find("...) and loop.h (SHA-256 ") !=
+        std::string::npos);
+  CHECK(compared(with, kFile, kCode) == Objections{"loop.h is not beside the design file"});
+  with["code"]["included"][0]["name"] = "loop.c";  // there twice
+  Objections objections;
+  check_code(read_json(with.dump()), objections);
+  CHECK(!objections.empty());
+}
+
 }  // namespace
 }  // namespace veritrack::checker

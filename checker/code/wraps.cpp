@@ -127,6 +127,9 @@ void Wraps::find_bases() {
     }
     if (const int behind = plain(place); behind != place) {
       leads[i] = leads[static_cast<std::size_t>(behind)];
+    } else if (const std::optional<Remainder> left = remainder(place)) {
+      leads[i] = {leads[static_cast<std::size_t>(plain(left->of))].to, true};
+      bases_[i] = leads[i].to;
     } else if (operation.is("select")) {
       const Leads yes = leads[static_cast<std::size_t>(plain(operation.operands[1]))];
       const Leads no = leads[static_cast<std::size_t>(plain(operation.operands[2]))];
@@ -187,6 +190,13 @@ std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& pa
   if (depth > kDeepestWrap || place < base) {
     return std::nullopt;
   }
+  if (const std::optional<Remainder> left = remainder(place)) {
+    auto parts = without_count(*left, base, part, depth + 1);
+    for (std::size_t i = 0; parts && i < parts->size(); ++i) {
+      (*parts)[i].second.roundings += converted;
+    }
+    return parts;
+  }
   if (is_sum(operation)) {
     const std::optional<double> constant = number(operation.operands[1]);
     auto parts = constant ? shifted(operation.operands[0], base, part, depth + 1) : std::nullopt;
@@ -216,6 +226,95 @@ std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& pa
     }
   }
   return all;
+}
+
+std::optional<std::string> Wraps::count_of_turns(int place, int of, double turn) const {
+  const ListedOperation& rounded = listing_->at(plain(place));
+  const bool rounds = rounded.is("rint") || rounded.is("round") || rounded.is("floor") ||
+                      rounded.is("ceil") || rounded.is("ftrunc");
+  if (!rounds) {
+    return std::nullopt;
+  }
+  const ListedOperation& share = listing_->at(plain(rounded.operands[0]));
+  const bool is_quotient = share.is("fdiv");
+  if (!is_quotient && !share.is("fmul")) {
+    return std::nullopt;
+  }
+  constexpr double kRoundedConstant = 2e-7;  // one of single precision is off by 6e-8
+  for (const std::size_t constant : {1U, 0U}) {
+    const std::optional<double> by = number(share.operands[constant]);
+    if (!by || plain(share.operands[1 - constant]) != plain(of) || (is_quotient && constant == 0)) {
+      continue;
+    }
+    const double ratio = is_quotient ? *by / turn : *by * turn;
+    if (std::fabs(ratio - 1.0) <= kRoundedConstant) {
+      return rounded.name;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Wraps::Remainder> Wraps::remainder(int place) const {
+  const ListedOperation& operation = listing_->at(place);
+  const auto one_turn = [&](int of) -> std::optional<double> {
+    const std::optional<double> turn = number(of);
+    return turn && std::fabs(*turn - 2.0 * std::numbers::pi) <= kTurnSlack ? turn : std::nullopt;
+  };
+  if (operation.is("fmod")) {
+    const std::optional<double> turn = one_turn(operation.operands[1]);
+    return turn ? std::optional(Remainder{operation.operands[0], "ftrunc", *turn, 0.0}) : std::nullopt;
+  }
+  if (!operation.is("fsub") || !listing_->at(plain(operation.operands[1])).is("fmul")) {
+    return std::nullopt;
+  }
+  const std::vector<int>& factors = listing_->at(plain(operation.operands[1])).operands;
+  for (const std::size_t constant : {0U, 1U}) {
+    const std::optional<double> turn = one_turn(factors[constant]);
+    const auto rounding =
+        turn ? count_of_turns(factors[1 - constant], operation.operands[0], *turn) : std::nullopt;
+    if (rounding) {
+      // A product that is at most the sum of both, and a difference.
+      return Remainder{operation.operands[0], *rounding, *turn, 3.0 * half_unit(operation.format)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Wraps::Shifted> Wraps::without_count(const Remainder& remainder, int base, const Part& part,
+                                                   int depth) const {
+  // Up to three turns, a quotient's rounding moves the place where its count changes by less than the slack.
+  constexpr int kMostCount = 3;
+  const auto before = shifted(remainder.of, base, part, depth);
+  if (!before) {
+    return std::nullopt;
+  }
+  Shifted all;
+  for (const auto& [where, shift] : *before) {
+    const Span value{where.of_base.low + shift.by, where.of_base.high + shift.by};
+    const double most = kMostCount * remainder.turn;
+    if (!(value.low >= -most && value.high <= most)) {
+      return std::nullopt;
+    }
+    for (int count = -kMostCount - 1; count <= kMostCount + 1; ++count) {
+      // The turns x/T of which this may be the count.
+      Span turns{count - 0.5, count + 0.5};
+      if (remainder.rounding == "floor") {
+        turns = {count + 0.0, count + 1.0};
+      } else if (remainder.rounding == "ceil") {
+        turns = {count - 1.0, count + 0.0};
+      } else if (remainder.rounding == "ftrunc") {
+        turns = {count <= 0 ? count - 1.0 : count + 0.0, count >= 0 ? count + 1.0 : count + 0.0};
+      }
+      Part there = where;
+      there.of_base.low = std::max(where.of_base.low, turns.low * remainder.turn - kTurnSlack - shift.by);
+      there.of_base.high = std::min(where.of_base.high, turns.high * remainder.turn + kTurnSlack - shift.by);
+      if (there.of_base.low <= there.of_base.high) {
+        all.emplace_back(std::move(there), ListedShift{shift.by - count * remainder.turn,
+                                                       shift.roundings + remainder.roundings});
+      }
+    }
+  }
+  return all.size() <= kMostParts ? std::optional(std::move(all)) : std::nullopt;
 }
 
 std::optional<Wraps::Decided> Wraps::decided(int condition, int base, const Part& part, int depth) const {

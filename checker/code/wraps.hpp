@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,7 +43,8 @@ class Wraps {
   [[nodiscard]] const std::set<int>& taken_for_numbers() const { return taken_; }
 
   /// Whether the register is a choice among a register, itself one of them, and others that differ from it by
-  /// whole turns, and that register.
+  /// whole turns, or what is left of that register after a rounded count of turns is taken away; and that
+  /// register.
   [[nodiscard]] bool is_wrapped(int place) const { return base_of(place) >= 0; }
   [[nodiscard]] int base_of(int place) const { return bases_[static_cast<std::size_t>(plain(place))]; }
   /// The values of a wrapped register where its base has this range.
@@ -62,6 +64,17 @@ class Wraps {
   using Shifted =
       std::vector<std::pair<Part, ListedShift>>;       ///< there, a register is the base and a constant
   using Decided = std::vector<std::pair<Part, bool>>;  ///< there, a condition is true or false
+  /// x - n T for T one turn, where n is x/T rounded.
+  struct Remainder {
+    int of = -1;
+    std::string rounding;  ///< "rint"
+    double turn = 0.0;
+    double roundings = 0.0;
+  };
+  [[nodiscard]] std::optional<Remainder> remainder(int place) const;
+  [[nodiscard]] std::optional<std::string> count_of_turns(int place, int of, double turn) const;
+  [[nodiscard]] std::optional<Shifted> without_count(const Remainder& remainder, int base, const Part& part,
+                                                     int depth) const;
   [[nodiscard]] int behind(int place) const;
   [[nodiscard]] std::optional<Shifted> shifted(int place, int base, const Part& part, int depth) const;
   [[nodiscard]] std::optional<Decided> decided(int condition, int base, const Part& part, int depth) const;

@@ -123,6 +123,9 @@ class Evaluation {
     if (!format.is_float) {
       return {};
     }
+    if (turns_.is_wrapped(number)) {
+      return wrapped(number);
+    }
     const auto operand = [&](std::size_t i) { return value(instruction.operands[i]); };
     switch (instruction.operation) {
       case Operation::constant: {
@@ -151,7 +154,7 @@ class Evaluation {
       case Operation::fmax:
         return of_two(operand(0), operand(1), instruction.operation == Operation::fmin);
       case Operation::select:
-        return turns_.is_wrapped(number) ? wrapped(number) : chosen(instruction);
+        return chosen(instruction);
       default:
         return function(instruction);
     }

@@ -90,7 +90,9 @@ int Turns::without_turns(int value) {
   }
   const Instruction& instruction = at(value);
   int result = value;
-  if (instruction.operation == Operation::select && instruction.format.is_float) {
+  if (const std::optional<Reduction> reduction = reduction_of(value)) {
+    result = without_turns(reduction->argument);
+  } else if (instruction.operation == Operation::select && instruction.format.is_float) {
     const int yes = without_turns(instruction.operands[1]);
     const int no = without_turns(instruction.operands[2]);
     result = yes == no ? yes : value;
@@ -106,7 +108,8 @@ int Turns::without_turns(int value) {
 
 bool Turns::is_wrapped(int value) {
   const int behind = plain(value);
-  return at(behind).operation == Operation::select && without_turns(behind) != behind;
+  return (at(behind).operation == Operation::select && without_turns(behind) != behind) ||
+         reduction_of(behind).has_value();
 }
 
 std::optional<Range> Turns::range(int value, int base, Range of_base) const {
@@ -141,6 +144,13 @@ std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, cons
     return std::vector{Piece{part, {0.0, converted}}};
   }
   const Instruction& instruction = at(value);
+  if (const std::optional<Reduction> reduction = reduction_of(value)) {
+    auto parts = reduced(*reduction, base, part);
+    for (std::size_t i = 0; parts && i < parts->size(); ++i) {
+      (*parts)[i].shift.roundings += converted;
+    }
+    return parts;
+  }
   if (instruction.operation == Operation::fadd || instruction.operation == Operation::fsub) {
     const std::optional<double> moved = number(instruction.operands[1]);
     auto parts = moved ? pieces(instruction.operands[0], base, part) : std::nullopt;
@@ -169,6 +179,96 @@ std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, cons
     }
   }
   return all;
+}
+
+std::optional<Operation> Turns::counted(int value, int argument, double turn) const {
+  const Instruction& count = at(plain(value));
+  const Operation rounding = count.operation;
+  if (rounding != Operation::rint && rounding != Operation::round && rounding != Operation::floor &&
+      rounding != Operation::ceil && rounding != Operation::trunc) {
+    return std::nullopt;
+  }
+  // A constant in single precision is off by 6e-8.
+  constexpr double kOff = 2e-7;
+  const Instruction& quotient = at(plain(count.operands[0]));
+  const auto is_argument = [&](int operand) { return plain(operand) == plain(argument); };
+  const auto is_near = [&](int operand, double factor) {
+    const std::optional<double> constant = number(operand);
+    return constant && std::fabs(*constant * factor - 1.0) <= kOff;
+  };
+  const bool divides = quotient.operation == Operation::fdiv && is_argument(quotient.operands[0]) &&
+                       is_near(quotient.operands[1], 1.0 / turn);
+  const bool multiplies = quotient.operation == Operation::fmul &&
+                          ((is_argument(quotient.operands[0]) && is_near(quotient.operands[1], turn)) ||
+                           (is_argument(quotient.operands[1]) && is_near(quotient.operands[0], turn)));
+  return divides || multiplies ? std::optional(rounding) : std::nullopt;
+}
+
+std::optional<Turns::Reduction> Turns::reduction_of(int value) const {
+  const Instruction& instruction = at(value);
+  const auto is_turn = [](std::optional<double> number) {
+    return number && std::fabs(*number - 2.0 * std::numbers::pi) <= kWrapSlack;
+  };
+  if (instruction.operation == Operation::fmod && is_turn(number(instruction.operands[1]))) {
+    return Reduction{instruction.operands[0], Operation::trunc, *number(instruction.operands[1]), 0.0};
+  }
+  if (instruction.operation != Operation::fsub) {
+    return std::nullopt;
+  }
+  const Instruction& product = at(plain(instruction.operands[1]));
+  for (const std::size_t constant : {0U, 1U}) {
+    const std::optional<double> turn =
+        product.operation == Operation::fmul ? number(product.operands[constant]) : std::nullopt;
+    const auto rounding = is_turn(turn)
+                              ? counted(product.operands[1 - constant], instruction.operands[0], *turn)
+                              : std::nullopt;
+    if (rounding) {
+      // The product is at most the sum of the argument and what is left of it.
+      return Reduction{instruction.operands[0], *rounding, *turn, 3.0 * unit_roundoff(instruction.format)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::vector<Turns::Piece>> Turns::reduced(const Reduction& reduction, int base,
+                                                        const Part& part) const {
+  constexpr double kMostTurns = 3.0;  // a count next to where it changes is off by less than the slack
+  const auto before = pieces(reduction.argument, base, part);
+  if (!before) {
+    return std::nullopt;
+  }
+  std::vector<Piece> all;
+  for (const Piece& piece : *before) {
+    const double low = piece.part.of_base.low + piece.shift.by;
+    const double high = piece.part.of_base.high + piece.shift.by;
+    if (!(low >= -kMostTurns * reduction.turn) || !(high <= kMostTurns * reduction.turn)) {
+      return std::nullopt;
+    }
+    for (double count = -kMostTurns - 1.0; count <= kMostTurns + 1.0; ++count) {
+      double begin = count - 0.5;
+      double end = count + 0.5;
+      if (reduction.rounding == Operation::floor) {
+        begin = count;
+        end = count + 1.0;
+      } else if (reduction.rounding == Operation::ceil) {
+        begin = count - 1.0;
+        end = count;
+      } else if (reduction.rounding == Operation::trunc) {
+        begin = count > 0.0 ? count : count - 1.0;
+        end = count < 0.0 ? count : count + 1.0;
+      }
+      const Range cut{std::max(piece.part.of_base.low, begin * reduction.turn - kWrapSlack - piece.shift.by),
+                      std::min(piece.part.of_base.high, end * reduction.turn + kWrapSlack - piece.shift.by)};
+      if (cut.low <= cut.high) {
+        Piece left = piece;
+        left.part.of_base = cut;
+        left.shift.by -= count * reduction.turn;
+        left.shift.roundings += reduction.roundings;
+        all.push_back(std::move(left));
+      }
+    }
+  }
+  return all.size() <= kMostPieces ? std::optional(std::move(all)) : std::nullopt;
 }
 
 std::optional<std::vector<Turns::Truth>> Turns::truth(int condition, int base, const Part& part) const {

@@ -28,7 +28,8 @@ class Turns {
   /// The register that the value differs from by whole turns only: all branches of its selects lead there.
   /// The value itself where there is none.
   [[nodiscard]] int without_turns(int value);
-  /// Whether the value is wrapped: a select of values that differ by turns.
+  /// Whether the value is wrapped: a select of values that differ by turns, or what is left of one after a
+  /// rounded number of turns is taken away.
   [[nodiscard]] bool is_wrapped(int value);
   /// The range of a wrapped value, or of one that a condition compares, where `base` has this range; nothing
   /// where the value is made of anything else.
@@ -61,6 +62,18 @@ class Turns {
     Part part;
     Shift shift;
   };
+  /// x - n T, where n is x/T, rounded, and T a whole turn: by a rounding function and a product, or by fmod.
+  struct Reduction {
+    int argument = -1;
+    trackers::code::Operation rounding = trackers::code::Operation::trunc;
+    double turn = 0.0;
+    double roundings = 0.0;
+  };
+  [[nodiscard]] std::optional<Reduction> reduction_of(int value) const;
+  /// Whether the value is a rounded number of turns in this argument, by its constant.
+  [[nodiscard]] std::optional<trackers::code::Operation> counted(int value, int argument, double turn) const;
+  [[nodiscard]] std::optional<std::vector<Piece>> reduced(const Reduction& reduction, int base,
+                                                          const Part& part) const;
   /// There, a condition holds, or does not.
   struct Truth {
     Part part;

@@ -84,6 +84,26 @@ TEST_CASE("a wrap of one side has steps of one way") {
   CHECK(refusal(never + next).find("the wraps do not keep theta in a range") == 0);
 }
 
+TEST_CASE("a rounded count of turns that is taken away is a wrap") {
+  const std::string turn = "f32:0x1.921fb6p+2";
+  const auto step_of = [&](const std::string& rounding) {
+    return made("r3 = fadd.f32 r1 r2\nr4 = fdiv.f32 r3 " + turn + "\nr5 = " + rounding +
+                ".f32 r4\nr6 = fmul.f32 r5 " + turn +
+                "\nr7 = fsub.f32 r3 r6\nnext r1 r7\nnext r2 r2\nfrequency r2\n");
+  };
+  const std::string expected = "turn1 = stays_within(w, -pi, pi)\ntheta' = theta + w\n";
+  for (const char* rounding : {"rint", "round", "floor", "ceil", "ftrunc"}) {
+    CAPTURE(rounding);
+    CHECK(step_of(rounding).step.substr(0, expected.size()) == expected);
+  }
+  CHECK(step_of("rint").ranges.at(1).high == doctest::Approx(3.1416).epsilon(1e-4));
+  CHECK(step_of("floor").ranges.at(1).low == doctest::Approx(0.0).epsilon(1e-4));
+  const Recursion left =
+      made("r3 = fadd.f32 r1 r2\nr4 = fmod.f32 r3 " + turn + "\nnext r1 r4\nnext r2 r2\nfrequency r2\n");
+  CHECK(left.step.substr(0, expected.size()) == expected);
+  CHECK(left.ranges.at(1).low == doctest::Approx(-6.2832).epsilon(1e-4));
+}
+
 TEST_CASE("choices are what they are of real numbers") {
   const auto choice = [](const std::string& comparison, const std::string& yes, const std::string& no) {
     return next_w("r3 = fadd.f32 r2 r0\nr4 = fneg.f32 r3\nr5 = fcmp." + comparison + "\nr6 = select.f32 r5 " +

@@ -142,6 +142,53 @@ TEST_CASE("a wrap of one side keeps an angle whose steps are limited to one way"
   CHECK(with("-pi, -0.001").objection() != "");
 }
 
+/// The loop whose angle is wrapped by a rounded count of turns.
+CodeDesign counted_loop(const std::string& quotient, const std::string& rounding, const std::string& rest) {
+  CodeDesign loop = test::loop();
+  const std::size_t from = loop.listing.find("r8 = fcmp");
+  const std::size_t to = loop.listing.find("r14 = fcmp");
+  const std::size_t end = loop.listing.find("r18 = fcmp");
+  const std::size_t next = loop.listing.find("next r1");
+  std::string listing = loop.listing.substr(0, from) + "r8 = " + quotient + "\nr9 = " + rounding +
+                        ".f32 r8\nr10 = fmul.f32 r9 " + test::kTurn + "\nr11 = " + rest + "\n";
+  std::string others = loop.listing.substr(to, end - to) + loop.listing.substr(next);
+  for (const auto& [old, fresh] :
+       {std::pair("r14", "r12"), std::pair("r15", "r13"), std::pair("r16", "r14"), std::pair("r17", "r15")}) {
+    for (std::size_t at = others.find(old); at != std::string::npos; at = others.find(old)) {
+      others.replace(at, 3, std::string("#") + (fresh + 1));
+    }
+  }
+  for (std::size_t at = others.find('#'); at != std::string::npos; at = others.find('#')) {
+    others[at] = 'r';
+  }
+  listing += others;
+  listing = replaced(listing, "next r1 r13", "next r1 r11");
+  loop.listing = listing.substr(0, listing.find("must-be-zero"));
+  return loop;
+}
+
+TEST_CASE("an angle is wrapped by taking a rounded count of turns away") {
+  const std::string divided = "fdiv.f32 r7 " + test::kTurn;
+  const std::string multiplied = "fmul.f32 r7 f32:0x1.45f306p-3";  // 1/(2 pi)
+  const std::string rest = "fsub.f32 r7 r10";
+  for (const char* rounding : {"rint", "round", "floor", "ceil", "ftrunc"}) {
+    CAPTURE(rounding);
+    CHECK(counted_loop(divided, rounding, rest).objection() == "");
+    CHECK(counted_loop(multiplied, rounding, rest).may_be_rounded());
+  }
+  CHECK(counted_loop("fdiv.f32 r7 " + test::kPi, "rint", rest).objection() != "");
+  CHECK(counted_loop("fmul.f32 r7 f32:0x1.45f3p-2", "rint", rest).objection() != "");
+  CHECK(counted_loop("fdiv.f32 r6 " + test::kTurn, "rint", rest).objection() != "");
+  CHECK(
+      counted_loop(test::kTurn.substr(0, 0) + "fdiv.f32 " + test::kTurn + " r7", "rint", rest).objection() !=
+      "");
+  CHECK(counted_loop(divided, "rint", "fadd.f32 r7 r10").objection() != "");
+  CHECK(counted_loop(divided, "rint", "fsub.f32 r6 r10").objection() != "");
+  CHECK(counted_loop(divided, "sqrt", rest).objection() != "");
+  CHECK(counted_loop(divided, "rint", "fmod.f32 r7 " + test::kTurn).objection() == "");
+  CHECK(counted_loop(divided, "rint", "fmod.f32 r7 " + test::kPi).objection() != "");
+}
+
 TEST_CASE("forgeries of a difference of angles are refused") {
   check_refused(
       test::detector(),

@@ -54,18 +54,15 @@ Objections objections_with(Json certificate, std::size_t place, const std::strin
 TEST_CASE("a late stage has limits above 0 and bounds of the covariance between 1 and those of its set") {
   const Json certificate = accepted_block("dft-block.json");
   const std::string above = certificate["derivations"][0]["evidence"][1]["numbers"]["above"];
-  for (const auto& [name, number] : {std::pair<std::string, std::string>{"radius", "0x0p+0"},
-                                     {"limit_1", "0x0p+0"},
-                                     {"limit_3", "-0x1p-5"},
-                                     {"next_above", "0x1.fffffep-1"},
-                                     {"next_above", "-0x1p+0"},
-                                     {"next_above", above},
-                                     {"next_below", "0x1.fffffep-1"},
-                                     {"next_below", above},
-                                     {"noise_weight", "0x0p+0"}}) {
-    CAPTURE(name);
-    CAPTURE(number);
-    CHECK(objections_with(certificate, 1, name, number) == kNoSet);
+  using Change = std::pair<std::string, std::string>;
+  for (const Change& change :
+       {Change{"radius", "0x0p+0"}, Change{"limit_1", "0x0p+0"}, Change{"limit_3", "-0x1p-5"},
+        Change{"next_above", "0x1.fffffep-1"}, Change{"next_above", "-0x1p+0"}, Change{"next_above", above},
+        Change{"next_below", "0x1.fffffep-1"}, Change{"next_below", above},
+        Change{"noise_weight", "0x0p+0"}}) {
+    CAPTURE(change.first);
+    CAPTURE(change.second);
+    CHECK(objections_with(certificate, 1, change.first, change.second) == kNoSet);
   }
 }
 

@@ -143,4 +143,17 @@ TEST_CASE("a wrap is off by its constant, and a wrapped value is a number only a
         1.7e-7);  // as an angle's next value it is known modulo turns
 }
 
+TEST_CASE("a choice between numbers that are rounded before they are compared has no bound") {
+  // The smaller of y and 1/2; but what is a little less than 1/2 is rounded to it before it is compared.
+  const std::string begin =
+      "veritrack listing 1\nsample r0 f64 y\nstate r1 f64:0x0p+0 w\nr2 = fptrunc.f32 r0\n";
+  const auto has_bound = [&](const std::string& choice) {
+    return listing_rounding(read_listing(begin + choice + "next r1 r4\nfrequency r1\n"), {},
+                            {Ball::within(one)}, Ball::within(one))
+        .has_value();
+  };
+  CHECK_FALSE(has_bound("r3 = fcmp.olt.f32 r2 f32:0x1p-1\nr4 = select.f64 r3 r0 f64:0x1p-1\n"));
+  CHECK(has_bound("r3 = fcmp.olt.f64 r0 f64:0x1p-1\nr4 = select.f64 r3 r0 f64:0x1p-1\n"));
+}
+
 }  // namespace veritrack::checker

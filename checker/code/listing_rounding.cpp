@@ -299,10 +299,23 @@ class StepErrors {
     }
   }
 
+  /// The same behind what is exact alone: a number that is rounded before it is compared turns elsewhere.
+  [[nodiscard]] int unrounded(int place) const {
+    for (;;) {
+      const ListedOperation& now = operation(place);
+      const std::optional<bool> known =
+          now.is("select") && now.format.is_float ? of_numbers(now.operands[0]) : std::nullopt;
+      if (!now.is("fpext") && !known) {
+        return place;
+      }
+      place = now.operands[now.is("fpext") ? 0 : *known ? 1 : 2];
+    }
+  }
+
   [[nodiscard]] bool is_same(int a, int b) const {
-    const ListedOperation& x = operation(plain(a));
-    const ListedOperation& y = operation(plain(b));
-    return plain(a) == plain(b) || (x.is_number() && y.is_number() && x.number == y.number);
+    const ListedOperation& x = operation(unrounded(a));
+    const ListedOperation& y = operation(unrounded(b));
+    return unrounded(a) == unrounded(b) || (x.is_number() && y.is_number() && x.number == y.number);
   }
 
   /// Whether both branches of a choice are the same number where the two that are compared are.
@@ -317,11 +330,11 @@ class StepErrors {
     }
     // x and -x meet at 0.
     const auto is_minus = [&](int x, int y) {
-      const ListedOperation& negated = operation(plain(x));
+      const ListedOperation& negated = operation(unrounded(x));
       return negated.is("fneg") && is_same(negated.operands[0], y);
     };
-    const ListedOperation& left = operation(plain(first));
-    const ListedOperation& right = operation(plain(second));
+    const ListedOperation& left = operation(unrounded(first));
+    const ListedOperation& right = operation(unrounded(second));
     const bool compares_with_0 =
         (left.is_number() && left.number == 0.0) || (right.is_number() && right.number == 0.0);
     const int other = left.is_number() ? second : first;
@@ -333,21 +346,21 @@ class StepErrors {
   /// does not act there.
   [[nodiscard]] std::optional<int> value_at_turn(int branch, int first, int second) const {
     if (is_same(branch, first) || is_same(branch, second)) {
-      return plain(branch);
+      return unrounded(branch);
     }
-    const ListedOperation& inner = operation(plain(branch));
+    const ListedOperation& inner = operation(unrounded(branch));
     if (!inner.is("select") || !operation(inner.operands[0]).is("fcmp")) {
       return std::nullopt;
     }
     const ListedOperation& test = operation(inner.operands[0]);
-    const bool first_is_number = operation(plain(first)).is_number();
+    const bool first_is_number = operation(unrounded(first)).is_number();
     const int limited = first_is_number ? second : first;
-    const ListedOperation& there = operation(plain(first_is_number ? first : second));
+    const ListedOperation& there = operation(unrounded(first_is_number ? first : second));
     if (!there.is_number() || !is_order(test.predicate)) {
       return std::nullopt;
     }
     const auto number = [&](int place) -> std::optional<double> {
-      const ListedOperation& x = is_same(place, limited) ? there : operation(plain(place));
+      const ListedOperation& x = is_same(place, limited) ? there : operation(unrounded(place));
       return x.is_number() ? std::optional(x.number) : std::nullopt;
     };
     const std::optional<double> a = number(test.operands[0]);
@@ -356,7 +369,7 @@ class StepErrors {
       return std::nullopt;
     }
     const int taken = inner.operands[is_true(test.predicate, *a < *b) ? 1 : 2];
-    return is_same(taken, limited) ? std::optional(plain(taken)) : std::nullopt;
+    return is_same(taken, limited) ? std::optional(unrounded(taken)) : std::nullopt;
   }
 
   const CodeListing* listing_;

@@ -189,7 +189,8 @@ void check_order(const TubeSet& set, Objections& objections) {
   }
 }
 
-bool covers(const TubeSet& set, const Ball& lowest, const Ball& highest) {
+bool covers(const TubeSet& set, const Ball& lowest, const Ball& highest CHECKER_DECLARED_PLACE) {
+  CHECKER_IF_FORCED
   return !set.tubes.empty() && certainly_at_most(low_end(set.tubes.front()), lowest) &&
          certainly_at_most(highest, high_end(set.tubes.back()));
 }

@@ -104,6 +104,6 @@ TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objection
 void check_order(const TubeSet& set, Objections& objections);
 
 /// Whether tubes in this order cover [lowest, highest].
-bool covers(const TubeSet& set, const Ball& lowest, const Ball& highest);
+bool covers(const TubeSet& set, const Ball& lowest, const Ball& highest CHECKER_PLACE);
 
 }  // namespace veritrack::checker

@@ -40,6 +40,8 @@ GaussianNoise read_gaussian_noise(const Tree& assume, const Ball& amplitude, Obj
 }
 
 Ball probability_of_leaving(const LockSet& set, const Ball& start, const Ball& samples) {
+  // cannot bind (set.level): of a start that may be beyond the level the probability below is
+  // exp(start - level) at least, which may be 1 or more, and is said to be 1.
   if (!certainly_at_most(start, set.level) || !certainly_at_most(one, samples)) {
     return one;
   }

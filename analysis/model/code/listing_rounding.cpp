@@ -226,8 +226,8 @@ class Evaluation {
     if (comparison.operation != Operation::fcmp) {
       return {};
     }
-    const int first = turns_.plain(comparison.operands[0]);
-    const int second = turns_.plain(comparison.operands[1]);
+    const int first = comparison.operands[0];
+    const int second = comparison.operands[1];
     const bool is_order = comparison.predicate != Predicate::oeq && comparison.predicate != Predicate::one &&
                           comparison.predicate != Predicate::ueq && comparison.predicate != Predicate::une;
     // Two numbers that are compared and of which one is taken: the same where they are equal, also with
@@ -240,12 +240,27 @@ class Evaluation {
     return {};
   }
 
+  /// The register behind what is exact alone: a number that is rounded before it is compared turns elsewhere.
+  [[nodiscard]] int unrounded(int number) const {
+    while (true) {
+      const Instruction& instruction = at(number);
+      const std::optional<bool> known =
+          instruction.operation == Operation::select && instruction.format.is_float
+              ? turns_.tests_for_numbers(instruction.operands[0])
+              : std::nullopt;
+      if (instruction.operation != Operation::fpext && !known) {
+        return number;
+      }
+      number = instruction.operands[instruction.operation == Operation::fpext ? 0 : *known ? 1 : 2];
+    }
+  }
+
   /// Whether the two branches are the same number where the two that are compared are.
   [[nodiscard]] bool meets(int yes, int no, int first, int second) const {
     const auto is = [&](int a, int b) {
-      const Instruction& x = at(turns_.plain(a));
-      const Instruction& y = at(turns_.plain(b));
-      return turns_.plain(a) == turns_.plain(b) ||
+      const Instruction& x = at(unrounded(a));
+      const Instruction& y = at(unrounded(b));
+      return unrounded(a) == unrounded(b) ||
              (x.operation == Operation::constant && y.operation == Operation::constant && x.format.is_float &&
               y.format.is_float &&
               trackers::code::number_of(x.format, x.bits) == trackers::code::number_of(y.format, y.bits));
@@ -255,11 +270,11 @@ class Evaluation {
     }
     // |x| as x < 0 ? -x : x.
     const auto is_negative_of = [&](int a, int b) {
-      const Instruction& x = at(turns_.plain(a));
+      const Instruction& x = at(unrounded(a));
       return x.operation == Operation::fneg && is(x.operands[0], b);
     };
     const auto is_zero = [&](int a) {
-      const Instruction& x = at(turns_.plain(a));
+      const Instruction& x = at(unrounded(a));
       return x.operation == Operation::constant && x.format.is_float &&
              trackers::code::number_of(x.format, x.bits) == 0.0;
     };
@@ -270,7 +285,7 @@ class Evaluation {
     }
     // A limit on one side: x > high ? high : (x < low ? low : x).
     for (const auto& [taken, rest] : {std::pair(yes, no), std::pair(no, yes)}) {
-      const Instruction& inner = at(turns_.plain(rest));
+      const Instruction& inner = at(unrounded(rest));
       const bool takes_limit = is(taken, first) || is(taken, second);
       const int limited = is(taken, first) ? second : first;
       if (takes_limit && inner.operation == Operation::select &&
@@ -278,8 +293,8 @@ class Evaluation {
         const auto& [condition, a, b] = inner.operands;
         const bool is_of_same = is(a, limited) || is(b, limited);
         const int low = is(a, limited) ? b : a;
-        const Instruction& limit = at(turns_.plain(low));
-        const Instruction& high = at(turns_.plain(taken));
+        const Instruction& limit = at(unrounded(low));
+        const Instruction& high = at(unrounded(taken));
         // Where x is the first limit, the inner one does not act: they are different constants, in order.
         if (is_of_same && limit.operation == Operation::constant && high.operation == Operation::constant &&
             inner_is_idle_at(inner, limited, high)) {
@@ -294,8 +309,8 @@ class Evaluation {
   [[nodiscard]] bool inner_is_idle_at(const Instruction& inner, int limited, const Instruction& there) const {
     const Instruction& comparison = at(inner.operands[0]);
     const auto number = [&](int value) -> std::optional<double> {
-      const int behind = turns_.plain(value);
-      const Instruction& x = behind == turns_.plain(limited) ? there : at(behind);
+      const int behind = unrounded(value);
+      const Instruction& x = behind == unrounded(limited) ? there : at(behind);
       return x.operation == Operation::constant && x.format.is_float
                  ? std::optional(trackers::code::number_of(x.format, x.bits))
                  : std::nullopt;
@@ -306,7 +321,7 @@ class Evaluation {
       return false;
     }
     const std::optional<bool> holds = order(comparison.predicate, *a < *b);
-    return holds && turns_.plain(inner.operands[*holds ? 1 : 2]) == turns_.plain(limited);
+    return holds && unrounded(inner.operands[*holds ? 1 : 2]) == unrounded(limited);
   }
 
   /// What a comparison is when the first number is certainly smaller, or certainly larger.

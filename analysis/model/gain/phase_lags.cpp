@@ -333,7 +333,9 @@ std::optional<PhaseTotals> PhaseKernels::totals_of(const std::vector<PhaseKernel
   for (const PhaseKernels& each : all) {
     for (std::size_t i = 0; i < residual.size(); ++i) {
       const PhasePart& part = *each.part_;
-      residual[i] = larger_or_nan(residual[i], rigor::add_up(part.residual[i], part.rounding[i]));
+      residual[i] = larger_or_nan(residual[i], part.rounding.empty()
+                                                   ? part.residual[i]
+                                                   : rigor::add_up(part.residual[i], part.rounding[i]));
     }
   }
   bool is_bounded =

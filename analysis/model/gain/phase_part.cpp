@@ -46,6 +46,7 @@ double size_of(const BallModel& model) {
 
 /// What a program is off in a step.
 void add_rounding(const PhaseStep& step, PhasePart& part) {
+  part.rounding.resize(part.states, 0.0);
   part.rounding_of_start.resize(part.states, 0.0);
   for (std::size_t i = 0; i < part.states; ++i) {
     double sum = 0.0;
@@ -187,7 +188,6 @@ std::optional<PhasePart> phase_part(const TrackerModel& tracker, const FloquetCe
   part.basis_slope.assign(n * n, 0.0);
   part.off.assign(n * n, 0.0);
   part.residual.assign(n, 0.0);
-  part.rounding.assign(n, 0.0);
   for (const std::vector<double>& entry : cell.matrix) {
     const double low = rigor::midpoint(polynomial(entry, Interval(place.z - place.half_z)));
     const double high = rigor::midpoint(polynomial(entry, Interval(place.z + place.half_z)));
@@ -272,6 +272,9 @@ std::optional<PhasePart> with_slew(PhasePart part, double slew) {
   }
   widen(part.slew);
   for (std::vector<double>* each : {&part.residual, &part.rounding}) {
+    if (each->empty()) {
+      continue;  // nothing is rounded
+    }
     const std::vector<double> more = times(*each);
     for (std::size_t i = 0; i < n; ++i) {
       (*each)[i] += more[i];

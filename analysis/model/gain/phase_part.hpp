@@ -47,7 +47,7 @@ struct PhasePart {
   std::vector<double> lean;               ///< half of what it changes over the part, nearly
   std::vector<double> off;                ///< sup of how far the matrix is from the line of both
   std::vector<double> residual;           ///< sup
-  std::vector<double> rounding;           ///< of a program in each step, sup
+  std::vector<double> rounding;           ///< of a program in each step, sup; empty: nothing is rounded
   std::vector<double> rounding_of_start;  ///< of its states, not in the basis
   double rounding_of_frequency = 0.0;     ///< rad/sample
   std::vector<double> inverse;            ///< sup of the inverse of the basis

@@ -65,6 +65,7 @@ Ball curvature(PhaseOperation operation, const Ball& x) {
       return certainly_positive(x) ? one / square(x) : Ball::everything();
     case PhaseOperation::tangent:
       // No pole lies between two where the cosine vanishes.
+      // cannot bind (abs(cos(x))): near a pole the tangent has no bound, so that it is in no finite ball.
       return certainly_positive(abs(cos(x))) ? two * tangent(x) * (one + square(tangent(x)))
                                              : Ball::everything();
     case PhaseOperation::arcsine:

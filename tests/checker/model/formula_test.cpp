@@ -216,6 +216,19 @@ TEST_CASE("functions with kinks and conditions have the values of their names") 
   }
 }
 
+TEST_CASE("a choice whose condition is not certain has no value") {
+  const auto is = [](const Ball& chosen_one, const Ball& value) {
+    return certainly_equal(chosen_one, value);
+  };
+  CHECK(is(chosen(half, one, two), one));
+  CHECK(is(chosen(zero, one, two), two));
+  CHECK(is(chosen(-half, one, two), two));
+  CHECK(is(chosen(Ball::hull(-two, -half), one, two), two));
+  CHECK_FALSE(chosen(Ball::hull(-one, one), one, two).finite());
+  CHECK_FALSE(chosen(Ball::hull(zero, one), one, two).finite());
+  CHECK_FALSE(chosen(Ball::everything(), one, two).finite());
+}
+
 TEST_CASE("both readers accept and refuse the same steps") {
   const std::vector<std::string> texts{
       "",

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "analysis/model/gaussian/gaussian_set.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -41,6 +43,31 @@ TEST_CASE(
     CHECK(other == doctest::Approx(found).epsilon(1e-12));
     CHECK(other >= leaving_probability(terms, static_cast<std::size_t>(channels), Ball(samples), Ball(share))
                        .lower_double());
+  }
+}
+
+TEST_CASE("the terms of a set in Gaussian noise are positive, and its factor is below 1") {
+  const auto objections_with = [](const std::string& name, const std::string& value) {
+    nlohmann::json terms;
+    for (const char* each : {"deviation", "most_noise", "exponent", "factor", "constant"}) {
+      terms[each] = "0x1p-1";
+    }
+    terms[name] = value;
+    nlohmann::json set = nlohmann::json::parse(R"({"name": "assumed", "cells": [{
+        "frequency": "0x1p-2", "half_width": "0x1p-6", "levels": ["0x1p-3"], "turns": [0],
+        "curve": [[[["0x1p-2", "0x0p+0"]]]], "shape": [[[["0x1p-2", "0x0p+0"]]]],
+        "phases": 64, "frequencies": 1}]})");
+    set["gaussian"] = terms;
+    Objections objections;
+    (void)read_tube_set(read_json(set.dump()), 1, objections);
+    return objections;
+  };
+  CHECK(objections_with("factor", "0x1.fffffp-1").empty());
+  CHECK(objections_with("factor", "0x1p+0") == Objections{"gaussian: factor must be below 1"});
+  CHECK(objections_with("factor", "0x1.4p+0") == Objections{"gaussian: factor must be below 1"});
+  for (const char* name : {"deviation", "most_noise", "exponent", "factor", "constant"}) {
+    CHECK(objections_with(name, "0x0p+0") ==
+          Objections{std::string("gaussian: ") + name + " must be positive"});
   }
 }
 

@@ -88,6 +88,34 @@ TEST_CASE("cells that do not fit together are refused") {
   CHECK_FALSE(crosses(set));
 }
 
+TEST_CASE("bounds of a covariance leave a margin between 0 and 1 at a border") {
+  // Two cells that overlap, and bounds that cross in the middle: each is entered where its own are wider.
+  TubeSet set;
+  set.slew = 0.001;
+  set.crossing = {0.91};
+  set.tubes = {follows(0.25, 0.14, 0.5), follows(0.5, 0.14, 0.5)};
+  for (PhaseTube& tube : set.tubes) {
+    // 1 and 1/2, plus and minus the distance from 0.375.
+    const double outward = tube.frequency < 0.375 ? -1.0 : 1.0;
+    const double distance = tube.frequency - 0.375;
+    tube.covariance_high = {{{1.0 + outward * distance, outward * tube.half_width}}};
+    tube.covariance_low = {{{0.5 - outward * distance, -outward * tube.half_width}}};
+  }
+  for (const double margin : {0.01, 0.5}) {
+    set.margin = margin;
+    CHECK(crosses(set));
+  }
+  for (const double margin : {0.0, -0.01, 1.0, 1.5, std::nan("")}) {
+    CAPTURE(margin);
+    set.margin = margin;
+    CHECK_FALSE(crosses(set));
+  }
+  // The bounds of one cell everywhere outside of those of the other.
+  set.margin = 0.01;
+  set.tubes[0].covariance_high = {{{1.5}}};
+  CHECK_FALSE(crosses(set));
+}
+
 TEST_CASE("beyond the neighbour") {
   TubeSet set = three_cells();
   set.slew = 0.25;

@@ -59,6 +59,17 @@ TEST_CASE("what depends on whole turns, and what does not") {
   CHECK(objection(model).empty());
 }
 
+TEST_CASE("a factor turns by as often as it says only where it is certainly that whole number") {
+  const auto turns_twice = [](const Ball& factor) {
+    return (TurnCount(factor) * TurnCount::angle(0, 1)).turns_by({2});
+  };
+  CHECK(turns_twice(two));
+  CHECK_FALSE(turns_twice(Ball(2.5)));
+  CHECK_FALSE(turns_twice(Ball::hull(Ball(1.5), Ball(2.5))));
+  CHECK_FALSE(turns_twice(Ball::hull(Ball(2.0), Ball(2.0 + 0x1p-50))));
+  CHECK_FALSE(turns_twice(Ball::everything()));
+}
+
 TEST_CASE("a wrap around the whole next value of an angle is left out, unless a formula uses that value") {
   CHECK(objection_to_next("wrap(theta + w)", "w + k*y*sin(theta)").empty());
   CHECK(objection_to_next("wrap(wrap(theta + w))", "w").empty());

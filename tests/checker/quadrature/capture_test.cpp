@@ -249,6 +249,18 @@ TEST_CASE("a box stands for its mirror image only when the covariance is symmetr
   SUBCASE("amplitude and frequency") {
     (*design.covariance)[0][2] = (*design.covariance)[2][0] = Ball(0.05);
   }
+  // The least of a range, of which the largest is symmetric.
+  const auto begin_at = [&](std::size_t i, double covariance) {
+    design.highest_covariance = design.covariance;
+    (*design.highest_covariance)[0][0] = (*design.highest_covariance)[i][i] = Ball(0.4 + covariance);
+    (*design.covariance)[0][i] = (*design.covariance)[i][0] = Ball(covariance);
+  };
+  SUBCASE("amplitude and phase, in a range") {
+    begin_at(1, 0.01);
+  }
+  SUBCASE("amplitude and frequency, in a range") {
+    begin_at(2, 0.011);
+  }
   CHECK(verdict("0x1.99999ap+1", "0x1.99999ap+1") == Verdict::undecided);
   CHECK(verdict("0x1p+2", "0x1p+2") == Verdict::proved);
 }

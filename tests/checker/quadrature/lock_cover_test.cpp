@@ -68,6 +68,20 @@ TEST_CASE("with a leak the set has no mirror image, and its bias and frequencies
   CHECK_FALSE(drifts_slowly(filter, with_another_bias, cells));
 }
 
+TEST_CASE("a set about a bias of the phase or of the frequency has no mirror image, without a leak either") {
+  const LockFilter filter = lock_test::Variances().filter();
+  std::int64_t half_as_many = 0;
+  CHECK(drifts_slowly(filter, lock_test::WrittenSet().set(), half_as_many));
+  for (const std::size_t i : {1U, 2U}) {
+    CAPTURE(i);
+    LockSet set = lock_test::WrittenSet().set();
+    set.bias[i] = Ball(0x1p-40);
+    std::int64_t cells = 0;
+    CHECK(drifts_slowly(filter, set, cells));
+    CHECK(2 * cells > 3 * half_as_many);
+  }
+}
+
 TEST_CASE("a set whose numbers are no doubles is covered by nothing, which proves nothing") {
   std::int64_t cells = 0;
   LockSet set = lock_test::WrittenSet().set();

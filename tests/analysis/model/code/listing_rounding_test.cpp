@@ -202,4 +202,26 @@ TEST_CASE("conversions between a wrap and what is wrapped are rounded, too") {
   CHECK(bound(true) >= bound(false) + 0x1p-24 * std::numbers::pi);
 }
 
+TEST_CASE("a choice between numbers that are rounded before they are compared has no bound") {
+  const rigor::UpwardRounding upward;
+  const auto smaller = [](bool is_rounded) {
+    ListingBuilder made;
+    const int y = made.sample();
+    const int w = made.state("w");
+    const int precise = made.make(Operation::fpext, {y}, Predicate::none, trackers::code::kDouble);
+    const int sum = made.make(Operation::fmul, {precise, precise}, Predicate::none, trackers::code::kDouble);
+    const int compared = is_rounded ? made.make(Operation::fptrunc, {sum}) : sum;
+    const int other = made.make(Operation::fpext, {w}, Predicate::none, trackers::code::kDouble);
+    const int less = made.make(Operation::fcmp, {compared, is_rounded ? w : other}, Predicate::olt);
+    const int chosen =
+        made.make(Operation::select, {less, sum, other}, Predicate::none, trackers::code::kDouble);
+    made.listing.states[0].next = made.make(Operation::fptrunc, {chosen});
+    made.listing.frequency = w;
+    return made.listing;
+  };
+  const StepRanges ranges{{Interval::from_bounds(0.2, 0.5)}, Interval::from_bounds(-1.0, 1.0), {}};
+  CHECK_FALSE(step_rounding(smaller(true), ranges).has_value());
+  CHECK(step_rounding(smaller(false), ranges).has_value());
+}
+
 }  // namespace veritrack::model::code

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "checker/model/gain/loop_verdicts.hpp"
+#include "checker/model/required_claims.hpp"
 #include "tests/checker/model/gain/gain_loops.hpp"
 #include "tests/support/random.hpp"
 
@@ -94,6 +96,26 @@ TEST_CASE("nothing is said of factors below 1, or of what is no number") {
   CHECK_FALSE(is_unstable_up_to(first_order(NAN), Ball(1.5)));
   CHECK_FALSE(is_stable_up_to(first_order(0.1), Ball(NAN)));
   CHECK_FALSE(is_stable_up_to(first_order(2.1), Ball(1.5)));
+}
+
+TEST_CASE("a gain margin is decided of decibels above 0 alone") {
+  const GainNetwork motor = test::motor_loop().network();
+  const auto verdict = [&](const GainNetwork& network, double decibels) {
+    ModelDesign design;
+    design.gain_margin = RequiredNumber{"", Ball(decibels)};
+    return linear_loop_verdict(kGainMargin, network, design);
+  };
+  // kp = 0.16 and ki = 2.4/12500: unstable from 4/(2 kp - ki), 21.9 dB.
+  CHECK(verdict(motor, 21.9) == Verdict::proved);
+  CHECK(verdict(motor, 22.0) == Verdict::refuted);
+  CHECK(verdict(motor, 1e-6) == Verdict::proved);
+  CHECK(verdict(motor, 0.0) == Verdict::undecided);
+  CHECK(verdict(motor, -6.0) == Verdict::undecided);
+  // Unstable as it is.
+  test::Loop loop = test::motor_loop();
+  loop.parameters["kp"] = "30000";
+  CHECK(verdict(loop.network(), 1.0) == Verdict::refuted);
+  CHECK(verdict(loop.network(), 0.0) == Verdict::undecided);
 }
 
 TEST_CASE("the detector of a loop is found from its forms") {

@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "checker/model/gain/gain_evidence.hpp"
 #include "checker/verification.hpp"
 #include "tests/checker/model/gain/gain_certificates.hpp"
 #include "tests/checker/model/gain/gain_loops.hpp"
@@ -175,6 +178,35 @@ TEST_CASE("evidence or a design that is not what it should be is refused") {
   CHECK(refuses([](Json& c) { c["design"]["assume"]["frequency"][0] = decimal("-7000"); }));
   CHECK(refuses([](Json& c) { c["design"]["model"]["angles"] = Json::array(); }));
   CHECK(refuses([](Json& c) { c["design"]["model"]["parameters"][2]["formula"] = "2.1*12500"; }));
+}
+
+TEST_CASE("with rounding each state has a room above 0, and an angle none") {
+  Json certificate = motor_certificate();
+  const Tree tree = read_json(certificate.dump());
+  const Tree& model = tree.at("design").at("model");
+  Objections of_design;
+  ModelRecursion recursion(model);
+  const ModelDesign design = read_model_design(tree.at("design"), recursion, of_design, true);
+  REQUIRE(of_design.empty());
+  const RoundingOfStep rounding = [](const std::vector<Ball>&, const Ball&) {
+    return std::optional(std::vector<Ball>{Ball(1e-7), Ball(1e-3), Ball(1e-9)});
+  };
+  const auto objections_with = [&](const Json& room, const RoundingOfStep& of_program) {
+    Json gains = certificate["gains"];
+    gains["rounding"] = room;
+    Objections objections;
+    const auto found = read_gains(read_json(gains.dump()), model, recursion, design, of_program, objections);
+    CHECK((found != nullptr) == objections.empty());
+    return objections;
+  };
+  const Json room{"0x0p+0", "0x1p+10"};
+  CHECK(objections_with(room, rounding).empty());
+  CHECK_FALSE(objections_with(room, {}).empty());
+  CHECK_FALSE(objections_with({"0x0p+0"}, rounding).empty());
+  const Objections no_room{"the room of a state is a number above 0, and that of an angle 0"};
+  CHECK(objections_with({"0x1p-1", "0x1p+10"}, rounding) == no_room);
+  CHECK(objections_with({"0x0p+0", "0x0p+0"}, rounding) == no_room);
+  CHECK(objections_with({"0x0p+0", "-0x1p+10"}, rounding) == no_room);
 }
 
 TEST_CASE("a signal that turns backwards is one like any other") {

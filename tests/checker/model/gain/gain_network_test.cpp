@@ -271,6 +271,41 @@ TEST_CASE("an arc tangent of two values is known off its cut") {
   CHECK_FALSE(std::isfinite(size(0.2, 0.27)));
 }
 
+TEST_CASE("a constant is clamped to limits on either side of which it is") {
+  const std::string s = "s = q*cos(phase) - i*sin(phase)\n";
+  const auto is_scaled = [&](const std::string& factor, double value) {
+    CAPTURE(factor);
+    CHECK(covers_detector(loop_with(""), s + "d = s*" + factor,
+                          [&](double r, double t, const State&) { return value * r * std::sin(t); }));
+  };
+  is_scaled("clamp(a, 0.5, 2)", 0.5);
+  is_scaled("clamp(a, 0.05, 2)", 0.1);
+  is_scaled("clamp(a, -2, 0.05)", 0.05);
+}
+
+TEST_CASE(
+    "the angle of a vector is half a turn off where its factor is negative, and unknown where it may be 0") {
+  const auto with_factor = [](const std::string& factor) {
+    Loop loop = loop_with(
+        "s = a*(q*cos(phase) - i*sin(phase))\nc = a*(i*cos(phase) + q*sin(phase))\n"
+        "d = atan2(s, c)");
+    loop.parameters = {{"a", factor}, {"b", "0.1"}};
+    return loop;
+  };
+  const auto steps_by = [](double sign) {
+    return [sign](const State& x, std::complex<double> y) {
+      const double d = std::arg(sign * y * std::polar(1.0, -x[0]));
+      return State{x[0] + x[1] + 0.1 * d, x[1] + 0.01 * d};
+    };
+  };
+  CHECK(covers(with_factor("0.1"), steps_by(1.0), 0.2, {0.3, 0.05}));
+  // Half a turn off the phase is where the angle is 0.
+  Loop negative = with_factor("-0.1");
+  negative.steady[0].constant = pi();
+  CHECK(covers(negative, steps_by(-1.0), 0.2, {0.3, 0.05}));
+  CHECK_FALSE(with_factor("0.1 - 0.1").is_covered());
+}
+
 TEST_CASE("without noise the remainders alone cover a step") {
   const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
   const auto covers_silent = [&](const std::string& lines, const auto& value) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "checker/verification.hpp"
 #include "tests/checker/model/gain/phase_loops.hpp"
@@ -138,6 +139,11 @@ TEST_CASE("evidence with phases that is not what it should be is refused") {
   CHECK(changes_cell("half_width", exactly(-1e-3)));
   CHECK(changes_cell("half_width", exactly(5e-4)));  // the band is not covered
   CHECK(changes_cell("frequency", exactly(0.31)));
+  // The same cell, from 0.299 to 0.301, and a wider band.
+  for (const auto& [from, to] : {std::pair("0.2989", "0.3009"), std::pair("0.2991", "0.3011")}) {
+    const Json band = Json::array({decimal(from), decimal(to)});
+    CHECK(is_refused([&](Json& c) { c["design"]["assume"]["frequency"] = band; }));
+  }
   CHECK(is_refused([](Json& c) { c["gains"]["cells"].push_back(c["gains"]["cells"][0]); }));
 }
 

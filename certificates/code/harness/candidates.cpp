@@ -63,7 +63,7 @@ std::string why_not(const Declarations& declarations, const Function& function, 
   if (function.is_template) {
     return "it is a template of which the file uses no instance with types";
   }
-  if (const std::string why = find_roles(declarations, function, roles); !why.empty()) {
+  if (std::string why = find_roles(declarations, function, roles); !why.empty()) {
     return why;
   }
   if (has_word(function.name, {"set", "get", "preset"})) {
@@ -205,6 +205,7 @@ std::vector<const Function*> init_candidates(const Declarations& declarations, c
   std::stable_sort(rated.begin(), rated.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<const Function*> result;
+  result.reserve(rated.size());
   for (const auto& [score, function] : rated) {
     result.push_back(function);
   }

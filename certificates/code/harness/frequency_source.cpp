@@ -48,7 +48,7 @@ std::optional<SampleTime> from_macro(const std::string& source_text, const std::
     char* rest = nullptr;
     double value = std::strtod(text.c_str() + (begin == std::string::npos ? 0 : begin), &rest);
     const std::string after = lower_case(rest);
-    if (const std::size_t slash = after.find('/'); slash != std::string::npos && slash < 3) {
+    if (const std::size_t slash = after.find('/'); slash < 3) {
       value /= std::strtod(after.c_str() + after.find_first_not_of("/ (", slash), nullptr);
     }
     if (value > 0.0 && value < 1e12) {

@@ -40,6 +40,7 @@ std::string text_of_file(const fs::path& path) {
 std::vector<nlohmann::json> tree_of(const NewCodeRequest& request, std::vector<std::string>& flags) {
   const auto read = [&](const std::vector<std::string>& given) {
     std::vector<SourceText> texts;
+    texts.reserve(given.size());
     for (const std::string& flag : given) {
       texts.push_back({flag, {}});
     }

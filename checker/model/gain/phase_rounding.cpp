@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "checker/model/gain/phase_range.hpp"
+#include "checker/model/gain/wide_number.hpp"
 
 namespace veritrack::checker {
 

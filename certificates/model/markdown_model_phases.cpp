@@ -52,7 +52,9 @@ std::string phase_budget_table(const model::PhaseErrors& errors, const ModelSets
              {{is_moving ? "noise and slew, to first order" : "noise, to first order",
                units.at_most(errors.linear), share(errors.linear)},
               {"bias and ripple of the steady state", units.at_most(errors.bias), share(errors.bias)},
-              {"curvature of the loop's functions at these errors, and the coarseness of the grid",
+              {sets.phases->room.empty()
+                   ? "curvature of the loop's functions at these errors, and the coarseness of the grid"
+                   : "rounding of the program, curvature of the loop's functions, the coarseness of the grid",
                units.at_most(rest), share(rest)},
               {"together", units.at_most(errors.long_run), "100 %"}}) +
          "\n";

@@ -106,7 +106,7 @@ int Wraps::plain(int place) const {
 }
 
 std::optional<double> Wraps::number(int place) const {
-  const ListedOperation& operation = listing_->at(plain(place));
+  const ListedOperation& operation = listing_->at(place);  // behind a conversion it may be another one
   return operation.is_number() && std::isfinite(operation.number) ? std::optional(operation.number)
                                                                   : std::nullopt;
 }
@@ -264,10 +264,10 @@ std::optional<Wraps::Remainder> Wraps::remainder(int place) const {
     const std::optional<double> turn = one_turn(operation.operands[1]);
     return turn ? std::optional(Remainder{operation.operands[0], "ftrunc", *turn, 0.0}) : std::nullopt;
   }
-  if (!operation.is("fsub") || !listing_->at(plain(operation.operands[1])).is("fmul")) {
+  if (!operation.is("fsub") || !listing_->at(operation.operands[1]).is("fmul")) {
     return std::nullopt;
   }
-  const std::vector<int>& factors = listing_->at(plain(operation.operands[1])).operands;
+  const std::vector<int>& factors = listing_->at(operation.operands[1]).operands;
   for (const std::size_t constant : {0U, 1U}) {
     const std::optional<double> turn = one_turn(factors[constant]);
     const auto rounding =

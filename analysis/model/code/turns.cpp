@@ -75,7 +75,7 @@ std::pair<int, double> Turns::plain_with_roundings(int value) const {
 }
 
 std::optional<double> Turns::number(int value) const {
-  const Instruction& instruction = at(plain(value));
+  const Instruction& instruction = at(value);  // behind a conversion it may be another one
   if (instruction.operation != Operation::constant || !instruction.format.is_float) {
     return std::nullopt;
   }
@@ -215,7 +215,7 @@ std::optional<Turns::Reduction> Turns::reduction_of(int value) const {
   if (instruction.operation != Operation::fsub) {
     return std::nullopt;
   }
-  const Instruction& product = at(plain(instruction.operands[1]));
+  const Instruction& product = at(instruction.operands[1]);  // in the format of the difference
   for (const std::size_t constant : {0U, 1U}) {
     const std::optional<double> turn =
         product.operation == Operation::fmul ? number(product.operands[constant]) : std::nullopt;

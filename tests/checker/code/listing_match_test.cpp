@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "checker/code/wraps.hpp"
 #include "tests/checker/code/code_design.hpp"
 
 namespace veritrack::checker {
@@ -187,6 +188,30 @@ TEST_CASE("an angle is wrapped by taking a rounded count of turns away") {
   CHECK(counted_loop(divided, "sqrt", rest).objection() != "");
   CHECK(counted_loop(divided, "rint", "fmod.f32 r7 " + test::kTurn).objection() == "");
   CHECK(counted_loop(divided, "rint", "fmod.f32 r7 " + test::kPi).objection() != "");
+}
+
+TEST_CASE("a turn that is rounded on its way is none: what it is off would not be counted") {
+  const auto last_is_wrapped = [](const std::string& lines, const char* last) {
+    const CodeListing listing = read_listing("veritrack listing 1\nsample r0 f32 y\nstate r1 f32:0x0p+0 w\n" +
+                                             lines + "next r1 r1\nfrequency r1\n");
+    int place = -1;
+    for (std::size_t i = 0; i < listing.operations.size(); ++i) {
+      place = listing.operations[i].is(last) ? static_cast<int>(i) : place;
+    }
+    REQUIRE(place >= 0);
+    return Wraps(listing).is_wrapped(place);
+  };
+  const std::string above = "r2 = fcmp.ogt.f32 r0 " + test::kPi + "\n";
+  CHECK(last_is_wrapped(above + "r3 = fadd.f32 r0 " + test::kMinusTurn + "\nr4 = select.f32 r2 r3 r0\n",
+                        "select"));
+  CHECK_FALSE(last_is_wrapped(above + "r3 = fptrunc.f32 f64:-0x1.921fb54442d18p+2\nr4 = fadd.f32 r0 r3\n"
+                                      "r5 = select.f32 r2 r4 r0\n",
+                              "select"));
+  const std::string product =
+      "r2 = fdiv.f32 r0 " + test::kTurn + "\nr3 = rint.f32 r2\nr4 = fmul.f32 r3 " + test::kTurn + "\n";
+  CHECK(last_is_wrapped(product + "r5 = fsub.f32 r0 r4\n", "fsub"));
+  CHECK_FALSE(
+      last_is_wrapped(product + "r5 = fpext.f64 r4\nr6 = fpext.f64 r0\nr7 = fsub.f64 r6 r5\n", "fsub"));
 }
 
 TEST_CASE("forgeries of a difference of angles are refused") {

@@ -147,14 +147,14 @@ std::string recursion_section(const Model& model) {
          markdown::fenced(recursion_text(model, "the recursion", CodeLanguage::formulas), "") + "\n";
 }
 
-std::string coverage_section(const ModelTables& tables, bool bounds_covariance, bool is_rounded) {
+std::string coverage_section(const ModelTables& tables, bool bounds_covariance) {
   const bool moves = tables.assume.slew.value.upper() > 0.0;
   const bool is_gaussian = tables.assume.gaussian.has_value();
   return fmt::format(
       "## What this certificate covers, and what it does not\n\n"
-      "- Covered: the recursion above{}, for {}, every "
+      "- Covered: the recursion above in exact arithmetic, for {}, every "
       "phase and every frequency that a statement names.\n"
-      "- Not covered: {}quantised samples, and whatever the formulas do "
+      "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
       "not say, such as resets, lock detectors and limits that act.\n"
       "- The amplitude {}, and the signal has no other components than those of the "
       "signal formula. Everything else in the samples must {}.\n"
@@ -165,9 +165,7 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance, 
       "- UNDECIDED refutes nothing: another set may exist.\n"
       "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
-      is_rounded ? " with the rounding of its program" : " in exact arithmetic",
       is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
-      is_rounded ? "" : "the rounding of the program that runs, ",
       tables.assume.one_amplitude ? "is exactly the assumed one"
       : tables.assume.constant_amplitude
           ? "is constant and some number of the assumed range, which is cut into parts (a set has tubes for "
@@ -219,16 +217,20 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
     return design_section(certificate, tables, model) +
            model_code_section(tables, is_rounded, sets.no_rounding) +
            model_gains_section(certificate, model, options) + recursion_section(model) +
-           gains_coverage_section(tables, is_rounded);
+           gains_coverage_section(tables, is_rounded, "table");
   }
   const auto& phases = sets.phases;
-  const bool is_rounded = phases && !phases->room.empty();
-  return design_section(certificate, tables, model) +
-         model_code_section(tables, is_rounded, sets.no_rounding) + model_lock_section(certificate) +
-         (phases ? model_phases_section(certificate) : std::string()) +
+  if (phases && !phases->room.empty()) {
+    return design_section(certificate, tables, model) + model_code_section(tables, true, "") +
+           model_phases_section(certificate) +
+           "Sets by tubes were not searched for: they are for exact arithmetic.\n\n" +
+           recursion_section(model) + gains_coverage_section(tables, true, "curve");
+  }
+  return design_section(certificate, tables, model) + model_code_section(tables, false, sets.no_rounding) +
+         model_lock_section(certificate) + (phases ? model_phases_section(certificate) : std::string()) +
          (sets.averages ? model_averages_section(certificate) : std::string()) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
-         recursion_section(model) + coverage_section(tables, sets.bounds_covariance, is_rounded);
+         recursion_section(model) + coverage_section(tables, sets.bounds_covariance);
 }
 
 }  // namespace veritrack::certificates

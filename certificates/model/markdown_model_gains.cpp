@@ -234,7 +234,8 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
   return text + steady_state_table(proof, model);
 }
 
-std::string gains_coverage_section(const ModelTables& tables, bool is_rounded) {
+std::string gains_coverage_section(const ModelTables& tables, bool is_rounded,
+                                   std::string_view steady_state) {
   return fmt::format(
       "## What this certificate covers, and what it does not\n\n"
       "- Covered: {}, for every noise within the assumed bound, every phase and every frequency that a "
@@ -243,7 +244,7 @@ std::string gains_coverage_section(const ModelTables& tables, bool is_rounded) {
       "- The amplitude {}, and the signal has no other components. Everything else in the samples must fit "
       "into "
       "the noise.\n"
-      "- *The steady state of the certificate* is the table above: the state in which the loop stays without "
+      "- *The steady state of the certificate* is the {} above: the state in which the loop stays without "
       "noise, up to rounding and to what turns with the signal. *A certified invariant set* is the set of "
       "all states that the loop can reach "
       "from "
@@ -261,7 +262,8 @@ std::string gains_coverage_section(const ModelTables& tables, bool is_rounded) {
       : tables.assume.constant_amplitude
           ? "is constant and some number of the assumed range"
           : "of every sample is in the assumed range and may be another one at each "
-            "sample");
+            "sample",
+      steady_state);
 }
 
 }  // namespace veritrack::certificates

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown.hpp"
@@ -20,7 +21,8 @@ namespace veritrack::certificates {
 [[nodiscard]] std::string gain_limits_table(const model::ProvedSet* noise, const model::ProvedSet* slew,
                                             const model::ProvedSet& starts, const FrequencyUnits& units);
 
-/// The section on what is covered.
-[[nodiscard]] std::string gains_coverage_section(const ModelTables& tables, bool is_rounded);
+/// The section on what is covered by gains alone. `steady_state`: what it is in the document, "table".
+[[nodiscard]] std::string gains_coverage_section(const ModelTables& tables, bool is_rounded,
+                                                 std::string_view steady_state);
 
 }  // namespace veritrack::certificates

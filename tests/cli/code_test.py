@@ -90,6 +90,8 @@ class Code(unittest.TestCase):
         self.assertIn("In IEEE 754 arithmetic of the listing of `step` and `frequency` in sogi-fll.c", document)
         self.assertNotIn("In exact arithmetic", document)
         self.assertEqual(genuine["tubes"], [])
+        self.assertNotIn("## The certified sets", document)  # which are tubes
+        self.assertIn("rounding of the program", document)
         room = genuine["gains"]["rounding"]
         for name, rooms in {"little room": [room[0], room[1], "0x1p-20"], "none": [room[0], "0x0p+0", room[2]],
                             "less than none": ["-0x1p+3", room[1], room[2]], "a state less": room[:2],

@@ -31,7 +31,8 @@ double attack_rule(const RuleCase& rule, std::uint64_t stream) {
   test::Random random(stream);
   double reached = 0.0;
   std::int64_t bounded = 0;
-  const std::int64_t trials = test::effort(800);
+  // Fewer would not come near the worst case, at whatever effort.
+  const std::int64_t trials = std::max<std::int64_t>(800, test::effort(800));
   for (std::int64_t trial = 0; trial < trials; ++trial) {
     const double size = rule.largest_deviation * std::pow(10.0, random.uniform(-2.0, 0.0));
     const double width = trial % 2 == 0 ? 0.0 : 0.1 * (rule.high - rule.low);

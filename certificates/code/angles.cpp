@@ -112,7 +112,8 @@ std::optional<Range> Angles::range_of(int value) {
   const Instruction& instruction = at(value);
   constexpr double kHalfTurn = std::numbers::pi + kWrapSlack;
   if (instruction.operation == Operation::atan2) {
-    return Range{-kHalfTurn, kHalfTurn};
+    const double most = value == listing_->near_arc_tangent.value ? listing_->near_arc_tangent.largest : 0.0;
+    return Range{-std::max(kHalfTurn, most), std::max(kHalfTurn, most)};
   }
   if (const auto known = ranges_.find(value); known != ranges_.end()) {
     return known->second;

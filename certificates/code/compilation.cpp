@@ -13,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "analysis/rigor/rounding.hpp"
 #include "certificates/code/compiler.hpp"
 #include "certificates/code/listing_text.hpp"
 #include "certificates/design/input_error.hpp"
@@ -178,6 +179,10 @@ CompiledCode compiled(const CodeTable& code, const fs::path& design_file) {
   } catch (const ListingError& error) {
     refuse(design_file, code.position, fmt::format("veritrack-lift made no listing: {}", error.what()));
   }
+  const rigor::UpwardRounding upward;
+  result.arc_tangent = model::code::arc_tangent(result.listing);
+  result.replaced =
+      result.arc_tangent ? with_arc_tangent(result.listing, *result.arc_tangent) : result.listing;
   return result;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/model/code/arc_tangent.hpp"
 #include "certificates/code/recursion.hpp"
 #include "certificates/design/design.hpp"
 #include "trackers/code/listing.hpp"
@@ -33,7 +35,9 @@ struct CompiledCode {
   std::string compiler;  ///< as it names itself
   std::string listing_text;
   trackers::code::Listing listing;
-  Recursion recursion;  ///< of the listing
+  std::optional<model::code::ArcTangent> arc_tangent;  ///< that the program computes by itself
+  trackers::code::Listing replaced;                    ///< the listing with an atan2 there
+  Recursion recursion;                                 ///< of that
 };
 
 /// The listing of the functions setup, step and frequency. `design_file` is where the names of files begin.

@@ -291,6 +291,11 @@ class Writer {
 
   [[nodiscard]] Formula function(int value) {
     const Instruction& instruction = at(value);
+    if (value == listing_->near_arc_tangent.value) {
+      refuse(value,
+             "the angle of the samples, nearly, which is used as a number; allowed: its difference to an "
+             "angle, wrapped to minus half a turn to half a turn");
+    }
     const auto* found = std::find_if(kFunctions.begin(), kFunctions.end(), [&](const Named& entry) {
       return entry.operation == instruction.operation;
     });

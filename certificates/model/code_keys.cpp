@@ -101,7 +101,7 @@ std::optional<TableObjection> complete_from_code(ModelTable& model,
   model.compiled = code::compiled(model.code, design_file);
   code::Recursion& recursion = model.compiled->recursion;
   try {
-    recursion = code::recursion_of(model.compiled->listing);
+    recursion = code::recursion_of(model.compiled->replaced);
   } catch (const code::NoRecursion& error) {
     const trackers::code::Place place = error.place();
     if (place.file < 0) {

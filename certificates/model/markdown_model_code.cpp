@@ -24,6 +24,11 @@ std::string files_table(const code::CompiledCode& compiled, const code::CodeTabl
                     fmt::format("`{}`, `{}`", file.name, file.sha256)});
   }
   rows.push_back({"compiler", as_code(compiled.compiler)});
+  if (const auto& arc = compiled.arc_tangent) {
+    rows.push_back({"an arc tangent of its own",
+                    fmt::format("`r{}` below, which is within {:.4f} rad of atan2 of the samples",
+                                number_in_text(compiled.listing, arc->value), arc->error)});
+  }
   std::string flags;
   for (const SourceText& flag : code.flags) {
     flags += (flags.empty() ? "" : " ") + as_code(flag.text);
@@ -79,6 +84,12 @@ std::string model_code_section(const ModelTables& tables, bool is_rounded, const
               : fmt::format("- The statements are about the listing in exact arithmetic: the rounding of the "
                             "program is not in their bounds{}{}.\n",
                             no_rounding.empty() ? "" : ", because ", no_rounding)) +
+         (compiled.arc_tangent
+              ? fmt::format("- The program computes the angle of its samples by itself. What that is off, "
+                            "times the length of a sample, is added to the noise {}.\n",
+                            is_rounded ? "in what is said of the program's arithmetic"
+                                       : "in nothing here: the statements are about an exact arc tangent")
+              : "") +
          "- That the compiled program does what the listing says is reported, not proved.\n" +
          (has_angles
               ? "- Angles are counted modulo 2π: a constant within 1e-5 of whole turns stands for whole "

@@ -28,7 +28,7 @@ using rigor::to_decimal;
 
 /// One line for each cause: what an engineer can improve.
 std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions& assume,
-                         const FrequencyUnits& units) {
+                         const FrequencyUnits& units, double turned) {
   const model::ErrorBudget& budget = bounds.budget;
   std::vector<std::vector<std::string>> rows;
   const auto add = [&](const std::string& cause, double part) {
@@ -36,7 +36,9 @@ std::string budget_table(const model::LoopBounds& bounds, const ModelAssumptions
       rows.push_back({cause, units.at_most(part), fmt::format("{:.3g} %", 100.0 * part / bounds.long_run)});
     }
   };
-  add(fmt::format("noise of at most {}", assume.noise.text), budget.noise);
+  add(fmt::format("noise of at most {}{}", assume.noise.text,
+                  turned > 0.0 ? fmt::format(", and {:.4f} rad of the arc tangent", turned) : ""),
+      budget.noise);
   add(fmt::format("slew of at most {} {}", assume.slew.text,
                   assume.slew_in_hertz_per_second ? "Hz per second" : "rad/sample per sample"),
       budget.slew);
@@ -215,7 +217,7 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
   if (!proof.gains) {
     text += stability_text(certificate, proof);
   } else if (proof.assumed) {
-    text += budget_table(*proof.assumed, assume, units);
+    text += budget_table(*proof.assumed, assume, units, proof.rounding ? proof.rounding->turned : 0.0);
     text += attack_text(sets, model, assume, units);
   } else if (!sets.assumed->is_proved()) {
     text +=

@@ -144,11 +144,17 @@ Json code_json(const code::CodeTable& code, const code::CompiledCode& compiled) 
   for (const code::CodeFile& file : compiled.files) {
     (file.is_included ? included : files).push_back({{"name", file.name}, {"sha256", file.sha256}});
   }
-  return {{"files", files},
-          {"included", included},
-          {"flags", texts_json(code.flags)},
-          {"compiler", compiled.compiler},
-          {"listing", compiled.listing_text}};
+  Json json{{"files", files},
+            {"included", included},
+            {"flags", texts_json(code.flags)},
+            {"compiler", compiled.compiler},
+            {"listing", compiled.listing_text}};
+  if (const auto& arc = compiled.arc_tangent) {
+    json["arc_tangent"] = {{"register", fmt::format("r{}", number_in_text(compiled.listing, arc->value))},
+                           {"error", fmt::format("{:.4f}", arc->error)},
+                           {"largest", fmt::format("{:.4f}", arc->largest)}};
+  }
+  return json;
 }
 
 }  // namespace

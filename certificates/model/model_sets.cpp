@@ -155,7 +155,7 @@ model::RoundingOfStep rounding_of(const code::CompiledCode& code) {
     }
     int without = -1;
     std::optional<model::code::StepRounding> found =
-        model::code::step_rounding(code.listing, ranges, &without);
+        model::code::step_rounding(code.replaced, ranges, &without);
     if (!found) {
       throw model::NoRounding(words_without_bound(code.listing, without));
     }
@@ -169,6 +169,7 @@ model::SetQuestion question_of(const Model& model, const ModelTables& tables, bo
   model::SetQuestion question{.tone = proposed_tone(model, assume), .tracker = proved_model(model, assume)};
   if (tables.model.compiled && tables.model.compiled->recursion.ranges_keep_obligations) {
     question.rounding = rounding_of(*tables.model.compiled);
+    question.turned = tables.model.compiled->arc_tangent ? tables.model.compiled->arc_tangent->error : 0.0;
   }
   question.tone.filter = by_structure && bounds_covariance(model, tables) ? question.tracker.filter : nullptr;
   if (is_constant_in_range(assume)) {

@@ -16,6 +16,11 @@ std::string arithmetic_of(const ModelTable& model, bool is_rounded) {
   if (const int before = model.compiled->listing.steps_before; before > 0) {
     text += before == 1 ? " after its first step" : fmt::format(" after its first {} steps", before);
   }
+  if (const auto& arc = model.compiled->arc_tangent; arc && !is_rounded) {
+    text += fmt::format(", with atan2({}, {}) in place of r{}, which is within {:.4f} rad of it",
+                        model.samples[1].text, model.samples[0].text,
+                        number_in_text(model.compiled->listing, arc->value), arc->error);
+  }
   if (is_rounded) {
     text +=
         ", every operation rounded to nearest, products and sums fused or not, subnormal results kept or "

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "checker/code/arc_tangent.hpp"
 #include "checker/code/formula_graph.hpp"
 #include "checker/code/listing.hpp"
 #include "checker/code/listing_match.hpp"
@@ -63,6 +64,29 @@ void check_names(const std::vector<std::string>& names, const std::vector<std::s
   }
 }
 
+/// From here on there is an operation of its own in place of what the program computes.
+void take_arc_tangent(const Tree& tree, CheckedCode& code, Objections& objections) {
+  ListedArcTangent arc;
+  // In the listing a constant stands where it is used, and has no number.
+  const std::string& name = tree.at("register").text();
+  const std::vector<ListedOperation>& operations = code.listing.operations;
+  for (std::size_t place = 0, number = 0; place < operations.size(); ++place) {
+    if (!operations[place].is("constant") && name == "r" + std::to_string(number++)) {
+      arc.place = static_cast<int>(place);
+    }
+  }
+  arc.error = from_decimal(tree.at("error").text());
+  arc.largest = from_decimal(tree.at("largest").text());
+  check_arc_tangent(code.listing, arc, objections);
+  if (objections.empty()) {
+    ListedOperation& operation = code.listing.operations[static_cast<std::size_t>(arc.place)];
+    operation.name = "arc";
+    operation.operands = {code.listing.samples[1], code.listing.samples[0]};
+    code.listing.largest_arc = arc.largest.upper_double();
+    code.turned = arc.error;
+  }
+}
+
 }  // namespace
 
 CheckedCode check_code(const Tree& design, Objections& objections) {
@@ -72,6 +96,9 @@ CheckedCode check_code(const Tree& design, Objections& objections) {
   CheckedCode result;
   result.listing = read_listing(code.at("listing").text());
   const CodeListing& listing = result.listing;
+  if (const Tree* arc = code.find("arc_tangent")) {
+    take_arc_tangent(*arc, result, objections);
+  }
   if (model.find("ekf") != nullptr) {
     objections.emplace_back("code beside a filter");
     return result;
@@ -122,6 +149,12 @@ std::string words_of_arithmetic(const Tree& design, bool is_rounded) {
   const long before = read_listing(code->at("listing").text()).steps_before;
   if (before > 0) {
     words += before == 1 ? " after its first step" : " after its first " + std::to_string(before) + " steps";
+  }
+  const Tree* arc = is_rounded ? nullptr : code->find("arc_tangent");
+  if (arc != nullptr && design.at("model").at("samples").elements().size() == 2) {
+    const std::vector<Tree>& samples = design.at("model").at("samples").elements();
+    words += ", with atan2(" + samples.at(1).text() + ", " + samples.at(0).text() + ") in place of " +
+             arc->at("register").text() + ", which is within " + arc->at("error").text() + " rad of it";
   }
   if (is_rounded) {
     words +=

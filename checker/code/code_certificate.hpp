@@ -15,6 +15,7 @@ namespace veritrack::checker {
 struct CheckedCode {
   CodeListing listing;
   std::optional<ListedAngles> angles;  ///< what bounds on rounding rest on; nothing where there are none
+  Ball turned;  ///< the angle of the samples as the program has it is off by this much, rad
 };
 
 /// Objects unless the recursion in the member "model" of the design is that of the listing in its member

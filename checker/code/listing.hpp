@@ -53,6 +53,8 @@ struct CodeListing {
   int frequency = -1;     ///< of the states alone
   long steps_before = 0;  ///< the listing says what steps do after the first ones
   std::vector<ListedObligation> obligations;
+  /// The size at most, rad, of an operation "arc": an angle of the samples in its operands, up to turns.
+  double largest_arc = 0.0;
 
   [[nodiscard]] const ListedOperation& at(int place) const {
     return operations[static_cast<std::size_t>(place)];

@@ -218,7 +218,7 @@ bool ListingMatch::is_difference(const FormulaNode& arc, int base) {
   const ListedOperation& difference = listing_->at(base);
   const ListedOperation* direction =
       difference.is("fsub") ? &listing_->at(wraps_.plain(difference.operands[0])) : nullptr;
-  if (direction == nullptr || !direction->is("atan2")) {
+  if (direction == nullptr || !(direction->is("atan2") || direction->is("arc"))) {
     return false;
   }
   const int angle = difference.operands[1];

@@ -107,9 +107,9 @@ std::vector<Span> ListingMatch::differences(int first, int second) {
 /// Registers that are tested for being numbers, or compared, are numbers: their operations have a value where
 /// the formulas have one.
 void ListingMatch::check_numbers(Objections& objections) {
-  constexpr std::array<std::string_view, 22> kAlways{
-      "fadd", "fsub", "fmul", "fneg", "fma",  "fabs",  "floor", "ceil",  "ftrunc", "rint",  "round",
-      "fmin", "fmax", "sin",  "cos",  "atan", "atan2", "exp",   "hypot", "tanh",   "fpext", "fptrunc"};
+  constexpr std::array<std::string_view, 23> kAlways{
+      "arc",  "fadd", "fsub", "fmul", "fneg", "fma",   "fabs", "floor", "ceil", "ftrunc", "rint",   "round",
+      "fmin", "fmax", "sin",  "cos",  "atan", "atan2", "exp",  "hypot", "tanh", "fpext",  "fptrunc"};
   constexpr std::array<std::string_view, 6> kWhereMatched{"fdiv", "sqrt", "log", "asin", "acos", "tan"};
   std::set<int> has_value;
   for (const auto& [node, place] : matched_) {

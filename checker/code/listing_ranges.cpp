@@ -55,6 +55,9 @@ std::optional<Span> ListingMatch::span_by_rules(int place) {
   if (const auto number = wraps_.number(place)) {
     return Span{*number, *number};
   }
+  if (operation.is("arc")) {
+    return slightly_wider({-listing_->largest_arc, listing_->largest_arc});
+  }
   if (operation.is("atan2") || operation.is("acos")) {
     return slightly_wider({operation.is("acos") ? 0.0 : -kHalf, kHalf});
   }

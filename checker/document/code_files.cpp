@@ -15,7 +15,7 @@ bool is_from_code(const std::string& path) {
                                                       "model.step",     "model.frequency", "code.compiler",
                                                       "code.listing"};
   return (path.starts_with("code.files[") && path.ends_with(".sha256")) ||
-         path.starts_with("code.included[") ||
+         path.starts_with("code.included[") || path.starts_with("code.arc_tangent.") ||
          std::any_of(kFromCode.begin(), kFromCode.end(), [&](std::string_view each) {
            return each.ends_with('[') ? path.starts_with(each) : path == each;
          });

@@ -233,7 +233,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   // One channel does not tell a frequency from its negative, and tubes are for positive ones.
   const bool both_signs =
       recursion.samples() == 2 && (by_gains || certificate.at("tubes").elements().empty());
-  const ModelDesign design = read_model_design(tree, recursion, objections, both_signs);
+  ModelDesign design = read_model_design(tree, recursion, objections, both_signs);
   objections.insert(objections.end(), recursion.objections().begin(), recursion.objections().end());
   result.parts.push_back({"design", objections});
   if (!objections.empty()) {
@@ -243,6 +243,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   if (tree.find("code") != nullptr) {
     const CheckedCode code = check_code(tree, objections);
     rounding = rounding_of(code);
+    design.turned = code.turned;
     result.parts.push_back({"the recursion is that of the listing", objections});
     if (!objections.empty()) {
       return;  // nor of another one than the code's

@@ -28,6 +28,7 @@ struct ModelDesign {
   Ball lowest, highest;  ///< of the frequency
   Ball band_unit;        ///< in which the design writes them: Hz, or 1
   Ball noise;            ///< bound on the length of the error of a sample, all channels together
+  Ball turned;           ///< a program has the angle of its samples with an error of up to so many rad
   /// Gaussian noise in place of that bound: its deviation in each channel, signal units, and the number of
   /// samples for which a probability is asked.
   std::optional<Ball> deviation;

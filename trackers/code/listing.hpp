@@ -154,6 +154,13 @@ struct Obligation {
   Place place;
 };
 
+/// An atan2 that stands for what the program computes: the same angle up to whole turns, for samples that are
+/// turned a little, and no larger than this.
+struct NearArcTangent {
+  int value = -1;
+  double largest = 0.0;
+};
+
 struct Listing {
   std::vector<std::string> files;
   std::vector<Instruction> instructions;
@@ -165,7 +172,17 @@ struct Listing {
   int frequency = -1;  ///< the register of the estimate, from the states before the step alone
   std::vector<Obligation> obligations;
   int steps_before = 0;  ///< the list says what steps do after the first ones, in which modes settle
+  NearArcTangent near_arc_tangent;
 };
+
+/// The number of a register in the text of the listing, where a constant stands in place of its register.
+[[nodiscard]] inline int number_in_text(const Listing& listing, int value) {
+  int number = 0;
+  for (int i = 0; i < value; ++i) {
+    number += listing.instructions[static_cast<std::size_t>(i)].operation != Operation::constant ? 1 : 0;
+  }
+  return number;
+}
 
 /// The name and the number of operands of an operation.
 struct OperationName {

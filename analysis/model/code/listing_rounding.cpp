@@ -444,7 +444,9 @@ class Evaluation {
     constexpr double kTwoPlaces = 4.0;
     const Computed y = value(instruction.operands[0]);
     const Computed x = value(instruction.operands[1]);
-    const Interval half_turns = Interval::from_bounds(-rigor::pi().upper(), rigor::pi().upper());
+    const bool is_near = &instruction == &at(std::max(listing_->near_arc_tangent.value, 0));
+    const double most = std::max(rigor::pi().upper(), is_near ? listing_->near_arc_tangent.largest : 0.0);
+    const Interval half_turns = Interval::from_bounds(-most, most);
     if (y.error == 0.0 && x.error == 0.0) {
       return rounded(instruction.format, half_turns, 0.0, kTwoPlaces);
     }

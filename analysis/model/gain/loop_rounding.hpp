@@ -14,6 +14,8 @@ struct LoopRounding {
   std::vector<double> room;  ///< by state: how far it may be from the steady state; infinite for angles
   std::vector<double> next;  ///< by state: what a step is off, at most
   double frequency = 0.0;    ///< the same of the reported frequency, rad/sample
+  double turned = 0.0;       ///< the angle of the samples is off by up to this, rad
+  double amplitude = 0.0;    ///< at most; what turns the samples counts as noise
 };
 
 /// The rounding of a step while no state is further than `room` from the steady state, at the frequencies of
@@ -23,7 +25,8 @@ struct LoopRounding {
                                            const std::vector<SteadyValue>& steady,
                                            const rigor::Interval& band);
 
-/// Adds an input to each state, forms that are the states, and the limits to their room.
+/// Adds an input to each state, forms that are the states, and the limits to their room; and to the noise
+/// what turns the samples.
 void add_rounding(LoopNetwork& network, const LoopRounding& rounding);
 
 }  // namespace veritrack::model

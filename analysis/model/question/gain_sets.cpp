@@ -201,7 +201,8 @@ LoopRounding rounding_of(const SetQuestion& question, const FoundLoop& found, co
     throw NoRounding("in one channel it is known over the phases");
   }
   LoopNetwork network = gains.network();
-  add_rounding(network, {std::vector<double>(n, INFINITY), std::vector<double>(n, 0.0), 0.0});
+  add_rounding(network, {std::vector<double>(n, INFINITY), std::vector<double>(n, 0.0), 0.0, question.turned,
+                         question.tracker.amplitude.upper()});
   const std::optional<GainBounds> probe =
       GainBounds::make(std::move(network), gains.samples(), gains.blocks());
   if (!probe) {
@@ -209,7 +210,10 @@ LoopRounding rounding_of(const SetQuestion& question, const FoundLoop& found, co
   }
   std::vector<LoopDisturbance> worst{assumed};
   if (sets.noise && sets.noise->is_proved()) {
-    worst.push_back({sets.noise->tubes.noise, 0.0, {}});
+    // What turns the samples takes a part of it.
+    const double of_samples = question.turned * question.tracker.amplitude.upper();
+    worst.push_back(
+        {std::max(0.0, (sets.noise->tubes.noise - 1.001 * of_samples) / (1.0 + question.turned)), 0.0, {}});
   }
   if (const auto& state = gains.network().frequency_state; state && sets.starts.reach > 0.0) {
     worst.push_back({0.0, 0.0, std::vector<double>(n, 0.0)});
@@ -229,8 +233,10 @@ LoopRounding rounding_of(const SetQuestion& question, const FoundLoop& found, co
         std::fabs(each.constant) + std::fabs(each.per_frequency * question.whole_band.upper());
     room[i] = question.tracker.recursion->is_angle[i] ? INFINITY : kSpare * room[i] + 0x1p-10 * size;
   }
-  return rounding_within(std::move(room), question.rounding, question.tracker, found.steady,
-                         question.whole_band);
+  LoopRounding rounding = rounding_within(std::move(room), question.rounding, question.tracker, found.steady,
+                                          question.whole_band);
+  rounding.turned = question.turned;
+  return rounding;
 }
 
 }  // namespace

@@ -320,6 +320,9 @@ class PhaseSets {
 PhaseProof rounded_proof(const SetQuestion& question, PhaseLoop& loop, double half_distance,
                          KnownLimits known) {
   PhaseSets exact(question, loop, half_distance, known);
+  if (question.turned > 0.0) {
+    throw NoRounding("it has an arc tangent of its own");
+  }
   if (!exact.look()) {
     throw NoRounding("its bounds do not close");
   }

@@ -26,7 +26,10 @@ struct SetQuestion {
   bool allows_gains = false;
   /// Nothing is asked that only tubes answer, the amplitude is one number, and there is no filter.
   bool allows_phase_gains = false;
-  RoundingOfStep rounding = {};                  ///< of the program that runs; empty: exact arithmetic
+  RoundingOfStep rounding = {};  ///< of the program that runs; empty: exact arithmetic
+  /// The angle of the samples as that program has it is off by up to this, rad: with an arc tangent of its
+  /// own.
+  double turned = 0.0;
   double noise = 0.0;                            ///< at most, signal units
   double slew = 0.0;                             ///< at most, rad/sample per sample
   std::vector<rigor::Interval> deviations = {};  ///< of the assumed starts from the curve, one for each state

@@ -53,7 +53,8 @@ GainBounds::Given GainBounds::given(const Ball& noise, const Ball& slew,
     for (std::size_t input = 0; input < network_->inputs.size(); ++input) {
       const GainInput& entry = network_->inputs[input];
       if (!entry.is_remainder()) {
-        sum += upward_product(kernels_.total(form, input), upper(entry.size(noise, slew)));
+        sum +=
+            upward_product(kernels_.total(form, input), upper(entry.size(network_->with_turns(noise), slew)));
       }
     }
     result.outside.push_back(up(sum));
@@ -191,7 +192,7 @@ std::optional<GainErrors> GainBounds::errors(const Ball& noise, const Ball& slew
                                              const std::vector<Ball>& start) const {
   if (!is_certain() || start.size() != network_->states() || !certainly_not_negative(noise) ||
       !certainly_not_negative(slew) || (!network_->ripples.empty() && !certainly_equal(slew, zero)) ||
-      !certainly_less(noise, network_->least_amplitude)) {
+      !certainly_less(network_->with_turns(noise), network_->least_amplitude)) {
     return std::nullopt;
   }
   const std::size_t blocks = kernels_.blocks();

@@ -49,6 +49,16 @@ void read_rounding(const Tree& list, const ModelRecursion& recursion, const Mode
       throw NotCovered("the room of a state is a number above 0, and that of an angle 0");
     }
   }
+  if (!certainly_equal(design.turned, zero)) {
+    // The samples that an arc tangent was looked at for, and noise is below the amplitude by this much.
+    constexpr double kScale = 0x1p39;
+    if (!certainly_less(design.largest_amplitude, Ball(kScale)) ||
+        !certainly_less(one, Ball(kScale) * design.turned * design.least_amplitude)) {
+      throw NotCovered("an arc tangent of other samples");
+    }
+    network.turned = design.turned;
+    network.largest_amplitude = design.largest_amplitude;
+  }
   // Noise is below the amplitude.
   const Ball sample = Ball::within(two * design.largest_amplitude);
   const auto off =

@@ -74,15 +74,21 @@ struct GainNetwork {
   Ball bias;                             ///< over the band
   /// The listed state is steady up to rounding, and crosses no limit.
   bool is_at_rest = true;
-  bool has_vector = false;              ///< two states are one angle: samples that are kept
-  std::vector<long> turns;              ///< of the states in the steady state, of the phase
-  std::vector<Ball> frequency;          ///< the row of the frequency
-  Ball least_amplitude;                 ///< noise must be below it
-  bool is_rounded = false;              ///< a program's rounding is among the inputs
+  bool has_vector = false;      ///< two states are one angle: samples that are kept
+  std::vector<long> turns;      ///< of the states in the steady state, of the phase
+  std::vector<Ball> frequency;  ///< the row of the frequency
+  Ball least_amplitude;         ///< noise must be below it
+  bool is_rounded = false;      ///< a program's rounding is among the inputs
+  /// A program has samples of this amplitude at most that are turned by up to so many rad.
+  Ball turned, largest_amplitude;
   std::vector<Ball> rounding_of_start;  ///< by state; or empty
   Ball rounding_of_frequency;           ///< what the program's frequency is off from that of its states
 
   [[nodiscard]] std::size_t states() const { return matrix.size(); }
+  /// Noise of at most that, and what turns the samples.
+  [[nodiscard]] Ball with_turns(const Ball& noise) const {
+    return noise + turned * (largest_amplitude + noise);
+  }
   /// Whether the errors obey the matrix to first order. A ripple changes with them, at each phase otherwise.
   [[nodiscard]] bool has_one_matrix() const { return ripples.empty(); }
 };

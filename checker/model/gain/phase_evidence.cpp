@@ -193,6 +193,9 @@ std::unique_ptr<PhaseBounds> read_phase_gains(const Tree& gains, const TrackedMo
     evidence.horizon.late_turns = late_turns;
     evidence.frequency_factors = factors_of_frequency(recursion);
     if (const Tree* room = gains.find("rounding")) {
+      if (!certainly_equal(design.turned, zero)) {
+        throw NotCovered("rounding over the phases of a program with an arc tangent of its own");
+      }
       evidence.program = read_program(*room, model, rounding);
     }
     evidence.structure =

@@ -117,6 +117,34 @@ class Code(unittest.TestCase):
         bias["bias_low"], bias["bias_high"] = "-0.0000014", "-0.0000012"  # of exact arithmetic
         self.assertIn(self.verdict(changed), (2, 3))
 
+    def test_an_arc_tangent_of_its_own_counts_as_noise(self):
+        genuine = self.certificate(self.folder / "fast-arc-tangent.toml")
+        document = (self.folder / "out" / "certificate.md").read_text()
+        self.assertIn("In exact arithmetic of the listing of `step` and `frequency` in fast-arc-tangent.c", document)
+        self.assertIn("with atan2(beta, alpha) in place of r21, which is within 0.0103 rad of it", document)
+        self.assertIn("noise of at most 0.5, and 0.0103 rad of the arc tangent", document)
+        self.assertIn("r21 = select.f32", document)  # the listing is the program's
+        arc = genuine["design"]["code"]["arc_tangent"]
+        for name, change in {"nearer than it is": {"error": "0.0101"}, "smaller than it is": {"largest": "3.1414"},
+                             "another register": {"register": "r20"}, "no register": {"register": "21"},
+                             "no number": {"error": "0.0103 or so"}, "more": {"kind": "sine"}}.items():
+            with self.subTest(name):
+                changed = json.loads(json.dumps(genuine))
+                changed["design"]["code"]["arc_tangent"] = arc | change
+                self.assertIn(self.verdict(changed), (2, 3))
+        changed = json.loads(json.dumps(genuine))
+        del changed["design"]["code"]["arc_tangent"]
+        self.assertIn(self.verdict(changed), (2, 3))
+        # What it is off is in the claims.
+        limits = next(claim for claim in genuine["claims"] if claim["id"] == "model/limits")
+        for key, value in {"noise": "0.99", "frequency_error": "0.0021"}.items():
+            with self.subTest(key):
+                changed = json.loads(json.dumps(genuine))
+                claim = next(claim for claim in changed["claims"] if claim["id"] == "model/limits")
+                claim[key] = value
+                self.assertNotEqual(limits[key], value)
+                self.assertIn(self.verdict(changed), (2, 3))
+
     def test_another_file_is_noticed(self):
         self.certificate()
         with open(self.folder / "pll.c", "a", encoding="utf-8") as file:

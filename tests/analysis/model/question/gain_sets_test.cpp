@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -185,6 +188,58 @@ TEST_CASE("a fast loop of one channel is far from its linear recursion, a slow o
     question.whole_band = Interval::from_bounds(-0.3, 0.3);
     CHECK_FALSE(prove_by_gains(question).has_value());
   }
+}
+
+/// w of a loop with this detector on a tone of amplitude 1, whose samples are turned and noisy in the way
+/// that pushes its angle most.
+double pushed_error(double kp, double ki, double omega, double turned, double noise, int samples) {
+  double theta = omega;
+  double w = omega;
+  double phase = 0.0;
+  double most = 0.0;
+  for (int k = 0; k < samples; ++k) {
+    phase = std::remainder(phase + omega, 2.0 * std::numbers::pi);
+    const double sign = k % (samples / 4) < samples / 8 ? 1.0 : -1.0;
+    const double angle = phase - theta;
+    // The noise along the imaginary axis of the loop, then the turn.
+    const double real = std::cos(angle);
+    const double imaginary = std::sin(angle) + sign * noise;
+    const double e = std::atan2(imaginary, real) + sign * turned;
+    theta = std::remainder(theta + w + kp * e, 2.0 * std::numbers::pi);
+    w += ki * e;
+    most = std::max(most, std::fabs(w - omega));
+  }
+  return most;
+}
+
+TEST_CASE("an angle of the samples that a program has with an error counts as noise") {
+  constexpr double kTurned = 0.04;
+  const test::TwoChannelExample loop(test::two_channel_loop(0.05, 0.001, Detector::arctangent2));
+  SetQuestion question = question_of(loop);
+  question.rounding = [](const auto&, const auto&) { return std::vector<double>(3, 0.0); };
+  question.turned = kTurned;
+  const auto [turned, plain] = [&] {
+    const rigor::UpwardRounding upward;
+    const std::optional<ProvedSets> with = prove_by_gains(question);
+    question.turned = 0.0;
+    question.noise += kTurned * (1.0 + question.noise);
+    return std::pair(with, prove_by_gains(question));
+  }();
+  REQUIRE(turned.has_value());
+  REQUIRE(plain.has_value());
+  CHECK(turned->no_rounding == "");
+  CHECK(turned->assumed->frequency_error == doctest::Approx(plain->assumed->frequency_error).epsilon(1e-9));
+  CHECK(turned->assumed->settled_error == doctest::Approx(plain->assumed->settled_error).epsilon(1e-9));
+  CHECK(turned->starts.settled_error > 0.3 * turned->assumed->settled_error);  // without noise, too
+  const double noise = turned->noise->tubes.noise;
+  CHECK(noise + kTurned * (1.0 + noise) <= 1.001 * plain->noise->tubes.noise);
+  CHECK(noise + kTurned * (1.0 + noise) > 0.98 * plain->noise->tubes.noise);
+  const double still = pushed_error(0.05, 0.001, 0.3, kTurned, 0.0, 4000);
+  const double noisy = pushed_error(0.05, 0.001, 0.3, kTurned, 0.05, 4000);
+  CHECK(still <= turned->starts.frequency_error);
+  CHECK(still > 0.6 * turned->starts.settled_error);
+  CHECK(noisy <= turned->assumed->frequency_error);
+  CHECK(noisy > 0.6 * turned->assumed->settled_error);
 }
 
 }  // namespace

@@ -256,6 +256,9 @@ class Writer {
     const Instruction& instruction = at(value);
     const auto operand = [&](std::size_t i) { return formula(instruction.operands[i]); };
     using Binds = Formula::Binds;
+    if (turns_.is_wrapped(value)) {
+      return wrapped(value);
+    }
     switch (instruction.operation) {
       case Operation::constant: {
         const double number = trackers::code::number_of(instruction.format, instruction.bits);
@@ -317,9 +320,6 @@ class Writer {
   // ---- choices
 
   [[nodiscard]] Formula choice(int value) {
-    if (turns_.is_wrapped(value)) {
-      return wrapped(value);
-    }
     const Limited limits = comparisons_.limited(value);
     if (limits.low && limits.high) {
       return {fmt::format("clamp({}, {}, {})", formula(limits.value).text, exact_decimal(*limits.low).text,

@@ -111,6 +111,19 @@ std::optional<double> Wraps::number(int place) const {
                                                                   : std::nullopt;
 }
 
+/// x, where half a turn is added, wraps follow, and it is taken away again; -1 for anything else.
+int Wraps::before_half_turns(int place) const {
+  const auto without_half = [&](int sum) {
+    const ListedOperation& operation = listing_->at(sum);
+    const std::optional<double> moved = is_sum(operation) ? number(operation.operands[1]) : std::nullopt;
+    const bool is_half = moved && !is_whole_turns(*moved) && is_whole_turns(*moved + *moved);
+    return is_half ? operation.operands[0] : -1;
+  };
+  const int wrapped = without_half(place);
+  const int base = wrapped < 0 ? -1 : bases_[static_cast<std::size_t>(plain(wrapped))];
+  return base < 0 ? -1 : without_half(base);
+}
+
 void Wraps::find_bases() {
   // For each register the only one that its choices and turns lead to, and whether it is one of its choices.
   struct Leads {
@@ -141,13 +154,16 @@ void Wraps::find_bases() {
       const std::optional<double> turns = number(operation.operands[1]);
       if (turns && is_whole_turns(*turns)) {
         leads[i] = {leads[static_cast<std::size_t>(plain(operation.operands[0]))].to, false};
+      } else if (const int before = before_half_turns(place); before >= 0) {
+        leads[i] = {leads[static_cast<std::size_t>(plain(before))].to, true};
+        bases_[i] = leads[i].to;
       }
     }
   }
 }
 
 std::optional<Span> Wraps::range(int place, int base, Span of_base) const {
-  const auto parts = shifted(place, base, {of_base, {}}, 0);
+  const auto parts = shifted(place, base, {of_base, {}, {}}, 0);
   if (!parts || parts->empty()) {
     return std::nullopt;
   }
@@ -160,7 +176,7 @@ std::optional<Span> Wraps::range(int place, int base, Span of_base) const {
 }
 
 std::optional<std::vector<ListedShift>> Wraps::shifts(int place, int base, Span of_base) const {
-  const auto parts = shifted(place, base, {of_base, {}}, 0);
+  const auto parts = shifted(place, base, {of_base, {}, {}}, 0);
   if (!parts || parts->empty()) {
     return std::nullopt;
   }
@@ -172,7 +188,7 @@ std::optional<std::vector<ListedShift>> Wraps::shifts(int place, int base, Span 
 }
 
 bool Wraps::is_always(int condition, bool truth, int base, Span of_base) const {
-  const auto parts = decided(condition, base, {of_base, {}}, 0);
+  const auto parts = decided(condition, base, {of_base, {}, {}}, 0);
   return parts && !parts->empty() &&
          std::all_of(parts->begin(), parts->end(), [&](const auto& each) { return each.second == truth; });
 }
@@ -191,7 +207,7 @@ std::optional<Wraps::Shifted> Wraps::shifted(int place, int base, const Part& pa
     return std::nullopt;
   }
   if (const std::optional<Remainder> left = remainder(place)) {
-    auto parts = without_count(*left, base, part, depth + 1);
+    auto parts = without_count(place, *left, base, part, depth + 1);
     for (std::size_t i = 0; parts && i < parts->size(); ++i) {
       (*parts)[i].second.roundings += converted;
     }
@@ -280,8 +296,8 @@ std::optional<Wraps::Remainder> Wraps::remainder(int place) const {
   return std::nullopt;
 }
 
-std::optional<Wraps::Shifted> Wraps::without_count(const Remainder& remainder, int base, const Part& part,
-                                                   int depth) const {
+std::optional<Wraps::Shifted> Wraps::without_count(int place, const Remainder& remainder, int base,
+                                                   const Part& part, int depth) const {
   // Up to three turns, a quotient's rounding moves the place where its count changes by less than the slack.
   constexpr int kMostCount = 3;
   const auto before = shifted(remainder.of, base, part, depth);
@@ -308,7 +324,8 @@ std::optional<Wraps::Shifted> Wraps::without_count(const Remainder& remainder, i
       Part there = where;
       there.of_base.low = std::max(where.of_base.low, turns.low * remainder.turn - kTurnSlack - shift.by);
       there.of_base.high = std::min(where.of_base.high, turns.high * remainder.turn + kTurnSlack - shift.by);
-      if (there.of_base.low <= there.of_base.high) {
+      const auto known = there.counts.emplace(place, count).first;
+      if (there.of_base.low <= there.of_base.high && known->second == count) {
         all.emplace_back(std::move(there), ListedShift{shift.by - count * remainder.turn,
                                                        shift.roundings + remainder.roundings});
       }
@@ -390,7 +407,7 @@ std::optional<Wraps::Decided> Wraps::compared(int condition, int base, const Par
     const auto add = [&](double low, double high, bool holds) {
       const Span cut{std::max(where.of_base.low, low), std::min(where.of_base.high, high)};
       if (cut.low <= cut.high) {
-        all.push_back({{cut, where.decided}, holds});
+        all.push_back({{cut, where.decided, where.counts}, holds});
         all.back().first.decided[condition] = holds;
       }
     };

@@ -56,10 +56,11 @@ class Wraps {
 
  private:
   /// A part of the base's range, and the comparisons that are decided there: next to its limit a comparison
-  /// may be true or false, but only one of them.
+  /// may be true or false, but only one of them. So is a count of turns one number, by what is left of them.
   struct Part {
     Span of_base;
     std::map<int, bool> decided;
+    std::map<int, int> counts;
   };
   using Shifted =
       std::vector<std::pair<Part, ListedShift>>;       ///< there, a register is the base and a constant
@@ -73,8 +74,8 @@ class Wraps {
   };
   [[nodiscard]] std::optional<Remainder> remainder(int place) const;
   [[nodiscard]] std::optional<std::string> count_of_turns(int place, int of, double turn) const;
-  [[nodiscard]] std::optional<Shifted> without_count(const Remainder& remainder, int base, const Part& part,
-                                                     int depth) const;
+  [[nodiscard]] std::optional<Shifted> without_count(int place, const Remainder& remainder, int base,
+                                                     const Part& part, int depth) const;
   [[nodiscard]] int behind(int place) const;
   [[nodiscard]] std::optional<Shifted> shifted(int place, int base, const Part& part, int depth) const;
   [[nodiscard]] std::optional<Decided> decided(int condition, int base, const Part& part, int depth) const;
@@ -82,6 +83,7 @@ class Wraps {
   [[nodiscard]] std::optional<Decided> joined(const ListedOperation& both, int base, const Part& part,
                                               int depth) const;
   void find_bases();
+  [[nodiscard]] int before_half_turns(int place) const;
 
   const CodeListing* listing_;
   std::vector<int> bases_;  ///< of selects; -1: not wrapped

@@ -21,6 +21,11 @@ bool is_whole_turns(double number) {
   return turns != 0.0 && std::fabs(turns) <= 4.0 && std::fabs(number - turns * kTurn) <= kWrapSlack;
 }
 
+/// Of an odd number of half turns.
+bool is_half_turns(double number) {
+  return !is_whole_turns(number) && is_whole_turns(2.0 * number);
+}
+
 bool is_less(Predicate predicate) {
   return predicate == Predicate::olt || predicate == Predicate::ole || predicate == Predicate::ult ||
          predicate == Predicate::ule;
@@ -100,20 +105,36 @@ int Turns::without_turns(int value) {
     const std::optional<double> turns = number(instruction.operands[1]);
     if (turns && is_whole_turns(*turns)) {
       result = without_turns(instruction.operands[0]);
+    } else if (const std::optional<int> centred = centred_of(value)) {
+      result = *centred;
     }
   }
   without_turns_[value] = result;
   return result;
 }
 
+/// Half a turn added, wrapped, and taken away again.
+std::optional<int> Turns::centred_of(int value) {
+  const auto half_turned = [&](int sum) {
+    const Instruction& instruction = at(sum);
+    const bool is_sum = instruction.operation == Operation::fadd || instruction.operation == Operation::fsub;
+    const std::optional<double> constant = is_sum ? number(instruction.operands[1]) : std::nullopt;
+    return constant && is_half_turns(*constant) ? std::optional(instruction.operands[0]) : std::nullopt;
+  };
+  const std::optional<int> behind = half_turned(value);
+  const std::optional<int> moved =
+      behind && is_wrapped(*behind) ? half_turned(without_turns(*behind)) : std::nullopt;
+  return moved ? std::optional(without_turns(*moved)) : std::nullopt;
+}
+
 bool Turns::is_wrapped(int value) {
   const int behind = plain(value);
   return (at(behind).operation == Operation::select && without_turns(behind) != behind) ||
-         reduction_of(behind).has_value();
+         reduction_of(behind).has_value() || centred_of(behind).has_value();
 }
 
 std::optional<Range> Turns::range(int value, int base, Range of_base) const {
-  const auto parts = pieces(value, base, Part{of_base, {}});
+  const auto parts = pieces(value, base, Part{of_base, {}, {}});
   if (!parts || parts->empty()) {
     return std::nullopt;
   }
@@ -126,7 +147,7 @@ std::optional<Range> Turns::range(int value, int base, Range of_base) const {
 }
 
 std::optional<std::vector<Turns::Shift>> Turns::shifts(int value, int base, Range of_base) const {
-  const auto parts = pieces(value, base, Part{of_base, {}});
+  const auto parts = pieces(value, base, Part{of_base, {}, {}});
   if (!parts || parts->empty()) {
     return std::nullopt;
   }
@@ -145,7 +166,7 @@ std::optional<std::vector<Turns::Piece>> Turns::pieces(int value, int base, cons
   }
   const Instruction& instruction = at(value);
   if (const std::optional<Reduction> reduction = reduction_of(value)) {
-    auto parts = reduced(*reduction, base, part);
+    auto parts = reduced(value, *reduction, base, part);
     for (std::size_t i = 0; parts && i < parts->size(); ++i) {
       (*parts)[i].shift.roundings += converted;
     }
@@ -230,7 +251,7 @@ std::optional<Turns::Reduction> Turns::reduction_of(int value) const {
   return std::nullopt;
 }
 
-std::optional<std::vector<Turns::Piece>> Turns::reduced(const Reduction& reduction, int base,
+std::optional<std::vector<Turns::Piece>> Turns::reduced(int value, const Reduction& reduction, int base,
                                                         const Part& part) const {
   constexpr double kMostTurns = 3.0;  // a count next to where it changes is off by less than the slack
   const auto before = pieces(reduction.argument, base, part);
@@ -259,9 +280,11 @@ std::optional<std::vector<Turns::Piece>> Turns::reduced(const Reduction& reducti
       }
       const Range cut{std::max(piece.part.of_base.low, begin * reduction.turn - kWrapSlack - piece.shift.by),
                       std::min(piece.part.of_base.high, end * reduction.turn + kWrapSlack - piece.shift.by)};
-      if (cut.low <= cut.high) {
+      const auto known = piece.part.counted.find(value);
+      if (cut.low <= cut.high && (known == piece.part.counted.end() || known->second == count)) {
         Piece left = piece;
         left.part.of_base = cut;
+        left.part.counted[value] = count;
         left.shift.by -= count * reduction.turn;
         left.shift.roundings += reduction.roundings;
         all.push_back(std::move(left));
@@ -334,7 +357,7 @@ std::optional<std::vector<Turns::Truth>> Turns::truth_of_comparison(int conditio
     const auto add = [&](double low, double high, bool holds) {
       const Range cut{std::max(where.of_base.low, low), std::min(where.of_base.high, high)};
       if (cut.low <= cut.high) {
-        all.push_back({{cut, where.decided}, holds});
+        all.push_back({{cut, where.decided, where.counted}, holds});
         all.back().part.decided[condition] = holds;
       }
     };
@@ -346,7 +369,7 @@ std::optional<std::vector<Turns::Truth>> Turns::truth_of_comparison(int conditio
 }
 
 bool Turns::is_never(int condition, int base, Range of_base) const {
-  const auto truths = truth(condition, base, Part{of_base, {}});
+  const auto truths = truth(condition, base, Part{of_base, {}, {}});
   return truths && !truths->empty() &&
          std::none_of(truths->begin(), truths->end(), [](const Truth& each) { return each.holds; });
 }

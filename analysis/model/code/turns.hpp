@@ -51,11 +51,12 @@ class Turns {
     return listing_->instructions[static_cast<std::size_t>(value)];
   }
   [[nodiscard]] std::optional<double> number(int value) const;
-  /// A part of the base's range, and the comparisons that are decided there: next to its limit, a comparison
-  /// may be true or false, but it is the same one wherever it is asked for.
+  /// A part of the base's range, and the comparisons that are decided there and the turns that are counted:
+  /// next to its limit, a comparison may be true or false, but it is the same one wherever it is asked for.
   struct Part {
     Range of_base;
     std::map<int, bool> decided;
+    std::map<int, double> counted;  ///< by the value that is left
   };
   /// There, the value is the base and a constant.
   struct Piece {
@@ -70,9 +71,11 @@ class Turns {
     double roundings = 0.0;
   };
   [[nodiscard]] std::optional<Reduction> reduction_of(int value) const;
+  /// What x is in f(x + pi) - pi, where f wraps.
+  [[nodiscard]] std::optional<int> centred_of(int value);
   /// Whether the value is a rounded number of turns in this argument, by its constant.
   [[nodiscard]] std::optional<trackers::code::Operation> counted(int value, int argument, double turn) const;
-  [[nodiscard]] std::optional<std::vector<Piece>> reduced(const Reduction& reduction, int base,
+  [[nodiscard]] std::optional<std::vector<Piece>> reduced(int value, const Reduction& reduction, int base,
                                                           const Part& part) const;
   /// There, a condition holds, or does not.
   struct Truth {

@@ -15,6 +15,7 @@
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_lock.hpp"
 #include "certificates/model/model_sets.hpp"
+#include "certificates/model/rounding_lines.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/linear_loop_table.hpp"
 
@@ -218,6 +219,7 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
     text += stability_text(certificate, proof);
   } else if (proof.assumed) {
     text += budget_table(*proof.assumed, assume, units, proof.rounding ? proof.rounding->turned : 0.0);
+    text += rounding_line_text(model_tables(certificate.design), proof, units);
     text += attack_text(sets, model, assume, units);
   } else if (!sets.assumed->is_proved()) {
     text +=

@@ -45,6 +45,10 @@ class Code(unittest.TestCase):
         self.assertIn("In IEEE 754 arithmetic of the listing of `step` and `frequency` in pll.c (SHA-256 ", document)
         self.assertIn("In exact arithmetic of the listing", document)  # what is true to first order
         self.assertIn("atan2.f32", document)
+        # And which line makes most of its rounding.
+        self.assertIn("Most of the rounding is in line 36 of pll.c: computed in double precision, with `pll.speed` kept in "
+                      "it, it would be ", document)
+        self.assertIn("There `pll.speed` stands still where less than 0.00024 is added to it", document)
 
     def test_forgeries_are_refused(self):
         genuine = self.certificate()

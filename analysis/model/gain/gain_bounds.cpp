@@ -281,6 +281,9 @@ std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance,
                    : cause == Cause::rounding  ? result.budget.rounding
                                                : result.budget.steady_state;
     part = plus(part, total_.back()[l], size[l]);
+    if (cause == Cause::rounding) {
+      result.rounding_gains.push_back(total_.back()[l]);
+    }
   }
   for (const std::size_t form : network_.state_forms) {
     double most = 0.0;

@@ -34,6 +34,8 @@ struct LoopBounds {
       0.0;  ///< of the error without the bias, over the phase, in the long run at a constant frequency
   ErrorBudget budget;          ///< of the long run
   std::vector<double> states;  ///< with rounding: how far each is from the steady state, at most
+  /// With rounding: from what a step of each state is off to the frequency error in the long run.
+  std::vector<double> rounding_gains;
 };
 
 class GainBounds {

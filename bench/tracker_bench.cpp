@@ -50,7 +50,7 @@ ToneModel<Scalar> design() {
 template <typename Scalar>
 QuadratureEstimate<Scalar> start() {
   const Scalar zero(0.0);
-  const Scalar variance(0.01);
+  const Scalar variance = Scalar(0.01);
   return {Scalar(1.0), zero, Scalar(kFrequency), {variance, zero, variance, zero, zero, variance}};
 }
 

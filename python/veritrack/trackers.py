@@ -271,13 +271,15 @@ class QuadratureEkf(_ToneFilter):
 class QuadratureBatch(QuadratureEkf):
     """Many filters of La Scala and Bitmead side by side: several in one register of the processor.
 
-    Parameters, results and memory are those of QuadratureEkf; 32 filters or more are worth it. The widest
+    Results and memory are those of QuadratureEkf; 32 filters or more are worth it. The widest
     instructions that the processor has are used (AVX-512, AVX2 or SSE2), and all of them give the same bits.
     From those of QuadratureEkf results differ by rounding: sine and cosine are within one unit in the last
     place here, too, but not always the same double. A certificate of the filter covers both.
 
     Parameters
     ----------
+    q1, q2, r, epsilon, frequency, phasor, covariance
+        As for QuadratureEkf.
     dtype : dtype
         numpy.float64, or numpy.float32 for twice as many filters in a register: parameters and samples are
         rounded to single precision, and so is each operation. Tracks are then arrays of numpy.float32 and

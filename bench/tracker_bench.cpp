@@ -1,8 +1,10 @@
 // One sample of the quadrature tracker: double against the textbook's matrices, and over intervals and duals.
 //
 // The counter double_steps is the cost of a step in double steps, measured in the same run. The aim is at
-// least 1.5 for the textbook version and at most 40 for intervals. Every tracker processes the same 1024
-// measurements of a locked signal, so that each step depends on the one before, as in use.
+// least 1.5 for the textbook version and at most 40 for intervals. The counter of_lanes of a batch is its
+// throughput in single trackers over the same scalar, divided by the number of lanes; the aim is 0.9. Every
+// tracker processes the same 1024 measurements of a locked signal, so that each step depends on the one
+// before, as in use.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Dense>
@@ -48,7 +50,7 @@ ToneModel<Scalar> design() {
 template <typename Scalar>
 QuadratureEstimate<Scalar> start() {
   const Scalar zero(0.0);
-  const Scalar variance(0.01);
+  const Scalar variance = Scalar(0.01);
   return {Scalar(1.0), zero, Scalar(kFrequency), {variance, zero, variance, zero, zero, variance}};
 }
 
@@ -60,30 +62,54 @@ double processor_time(const Run& run) {
   return static_cast<double>(std::clock() - begin) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
-void run_double(QuadratureEkf<double>& tracker) {
-  for (const Sample& sample : signal()) {
-    tracker.step(sample.in_phase, sample.quadrature);
+/// The samples over `Scalar`, in-phase and quadrature part one after the other.
+template <typename Scalar>
+const std::vector<Scalar>& pairs() {
+  static const std::vector<Scalar> samples = [] {
+    std::vector<Scalar> all;
+    for (const Sample& sample : signal()) {
+      all.insert(all.end(), {static_cast<Scalar>(sample.in_phase), static_cast<Scalar>(sample.quadrature)});
+    }
+    return all;
+  }();
+  return samples;
+}
+
+template <typename Scalar>
+void run_single(QuadratureEkf<Scalar>& tracker) {
+  const std::vector<Scalar>& samples = pairs<Scalar>();
+  for (std::size_t k = 0; k < samples.size(); k += 2) {
+    tracker.step(samples[k], samples[k + 1]);
   }
   benchmark::DoNotOptimize(tracker.filtered().frequency);
 }
 
-/// Seconds of one double step: the shortest of several runs.
-double double_step() {
-  static const double shortest = [] {
+/// The shortest time of some runs, in seconds.
+template <typename Run>
+double shortest(int runs, const Run& run) {
+  double result = processor_time(run);
+  for (int i = 1; i < runs; ++i) {
+    result = std::min(result, processor_time(run));
+  }
+  return result;
+}
+
+/// Seconds of one step over `Scalar`.
+template <typename Scalar>
+double single_step() {
+  static const double seconds = [] {
     const veritrack::rigor::NearestRounding nearest;
-    QuadratureEkf<double> tracker(design<double>(), start<double>());
-    constexpr int kRuns = 2000;
-    double result = 1.0;
-    for (int repetition = 0; repetition < 5; ++repetition) {
-      result = std::min(result, processor_time([&] {
-                          for (int i = 0; i < kRuns; ++i) {
-                            run_double(tracker);
-                          }
-                        }));
-    }
-    return result / (kRuns * static_cast<double>(signal().size()));
+    QuadratureEkf<Scalar> tracker(design<Scalar>(), start<Scalar>());
+    constexpr int kRuns = 100;
+    return shortest(100,
+                    [&] {
+                      for (int i = 0; i < kRuns; ++i) {
+                        run_single(tracker);
+                      }
+                    }) /
+           (kRuns * static_cast<double>(signal().size()));
   }();
-  return shortest;
+  return seconds;
 }
 
 /// Times `run`, which processes all samples of the signal, and reports the cost of one sample, also in double
@@ -98,38 +124,40 @@ void measure(benchmark::State& state, const Run& run, std::size_t trackers = 1) 
   const double step =
       seconds / (static_cast<double>(state.iterations()) * static_cast<double>(signal().size() * trackers));
   state.counters["ns_per_step"] = step * 1e9;
-  state.counters["double_steps"] = step / double_step();
+  state.counters["double_steps"] = step / single_step<double>();
 }
 
-void step_double(benchmark::State& state) {
-  QuadratureEkf<double> tracker(design<double>(), start<double>());
-  measure(state, [&] { run_double(tracker); });
+template <typename Scalar>
+void step_single(benchmark::State& state) {
+  QuadratureEkf<Scalar> tracker(design<Scalar>(), start<Scalar>());
+  measure(state, [&] { run_single(tracker); });
 }
-BENCHMARK(step_double);
+BENCHMARK(step_single<double>);
+BENCHMARK(step_single<float>);
 
-/// 64 trackers side by side, of which the estimates are wanted at the end only.
-template <InstructionSet set>
+/// 128 trackers side by side, of which the estimates are wanted at the end only.
+template <typename Scalar, InstructionSet set>
 void step_in_a_batch(benchmark::State& state) {
   if (!has(set)) {
     state.SkipWithError("this processor has no such instructions");
     return;
   }
-  constexpr std::size_t kTrackers = 64;
-  std::vector<double> samples;
-  for (const Sample& sample : signal()) {
-    samples.insert(samples.end(), {sample.in_phase, sample.quadrature});
-  }
-  QuadratureBatch batch(std::vector(kTrackers, design<double>()), std::vector(kTrackers, start<double>()));
-  measure(
-      state,
-      [&] {
-        batch.run({samples.data(), 0, signal().size()}, {}, set);
-      },
-      kTrackers);
+  constexpr std::size_t kTrackers = 128;
+  constexpr std::size_t kBytes = set == InstructionSet::avx512 ? 64 : set == InstructionSet::avx2 ? 32 : 16;
+  constexpr std::size_t kLanes = kBytes / sizeof(Scalar);
+  QuadratureBatch<Scalar> batch(std::vector(kTrackers, design<Scalar>()),
+                                std::vector(kTrackers, start<Scalar>()));
+  const auto run = [&] { batch.run({pairs<Scalar>().data(), 0, signal().size()}, {}, set); };
+  measure(state, run, kTrackers);
+  const double step = shortest(100, run) / static_cast<double>(signal().size() * kTrackers);
+  state.counters["of_lanes"] = single_step<Scalar>() / step / kLanes;
 }
-BENCHMARK(step_in_a_batch<InstructionSet::sse2>);
-BENCHMARK(step_in_a_batch<InstructionSet::avx2>);
-BENCHMARK(step_in_a_batch<InstructionSet::avx512>);
+BENCHMARK(step_in_a_batch<double, InstructionSet::sse2>);
+BENCHMARK(step_in_a_batch<double, InstructionSet::avx2>);
+BENCHMARK(step_in_a_batch<double, InstructionSet::avx512>);
+BENCHMARK(step_in_a_batch<float, InstructionSet::sse2>);
+BENCHMARK(step_in_a_batch<float, InstructionSet::avx2>);
+BENCHMARK(step_in_a_batch<float, InstructionSet::avx512>);
 
 void step_textbook(benchmark::State& state) {
   const auto d = design<double>();

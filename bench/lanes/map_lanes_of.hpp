@@ -3,7 +3,7 @@
 
 #include "analysis/rigor/interval_lanes.hpp"
 #include "bench/lanes/map_lanes.hpp"
-#include "trackers/packed.hpp"
+#include "trackers/packed_sine_cosine.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 
 namespace veritrack::bench {
@@ -30,7 +30,7 @@ auto run_map(const MapOperands& operands, std::size_t count) {
 
 template <int Lanes>
 double run_doubles(const MapOperands& operands, std::size_t count) {
-  return run_map<trackers::Packed<Lanes>>(operands, count)(0).lane(0);
+  return run_map<trackers::Packed<double, Lanes>>(operands, count)(0).lane(0);
 }
 
 template <int Lanes>

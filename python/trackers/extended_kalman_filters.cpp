@@ -1,6 +1,7 @@
 // The extended Kalman filters of one tone.
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -119,32 +120,53 @@ std::vector<QuadratureTracker> quadrature_trackers(const Array& design, const Ar
   return trackers;
 }
 
-/// Those of trackers/quadrature/batch/, with the interface of Batch.
+template <typename Scalar>
+using ArrayOf = py::array_t<Scalar, py::array::c_style | py::array::forcecast>;
+
+trackers::ToneModel<float> rounded(const trackers::ToneModel<double>& d) {
+  const auto to = [](double x) { return static_cast<float>(x); };
+  return {to(d.q1), to(d.q2), to(d.r), to(d.epsilon)};
+}
+
+/// The same numbers in another format, rounded to nearest.
+template <typename To, typename From>
+trackers::ToneEstimate<To> converted(const trackers::ToneEstimate<From>& estimate) {
+  const auto to = [](From x) { return static_cast<To>(x); };
+  const trackers::FactoredCovariance<From>& p = estimate.covariance;
+  return {to(estimate.in_phase),
+          to(estimate.quadrature),
+          to(estimate.frequency),
+          {to(p.conditional_11), to(p.conditional_12), to(p.conditional_22), to(p.regression_1),
+           to(p.regression_2), to(p.frequency_variance)}};
+}
+
+/// Those of trackers/quadrature/batch/, with the interface of Batch, in double or single precision.
+template <typename Scalar>
 class PackedQuadratureBatch {
  public:
   PackedQuadratureBatch(const Array& design, const Array& state, const Array& covariance)
       : batch_(made(design, state, covariance)) {}
 
   [[nodiscard]] std::size_t size() const { return batch_.size(); }
-  [[nodiscard]] Estimate estimate(std::size_t i) const { return batch_.filtered(i); }
+  [[nodiscard]] Estimate estimate(std::size_t i) const { return converted<double>(batch_.filtered(i)); }
 
   /// As Batch::run; instructions: "sse2", "avx2" or "avx512", or "" for the widest.
-  py::tuple run(const Array& samples, std::size_t threads, const std::string& instructions) {
+  py::tuple run(const ArrayOf<Scalar>& samples, std::size_t threads, const std::string& instructions) {
     const trackers::InstructionSet set = named(instructions);
     require_samples(samples, 2, size());
     const auto length = static_cast<std::size_t>(samples.shape(1));
     const std::size_t stride = samples.shape(0) == 1 ? 0 : length * 2;
-    Array state({size(), length, std::size_t{3}});
-    Array deviation({size(), length});
-    Array innovation({size(), length, std::size_t{2}});
-    Array nis({size(), length});
-    const trackers::BatchTargets targets{state.mutable_data(), deviation.mutable_data(),
-                                         innovation.mutable_data(), nis.mutable_data()};
-    const double* input = samples.data();
-    trackers::QuadratureBatch moved = batch_;
+    ArrayOf<Scalar> state({size(), length, std::size_t{3}});
+    ArrayOf<Scalar> deviation({size(), length});
+    ArrayOf<Scalar> innovation({size(), length, std::size_t{2}});
+    ArrayOf<Scalar> nis({size(), length});
+    const trackers::BatchTargets<Scalar> targets{state.mutable_data(), deviation.mutable_data(),
+                                                 innovation.mutable_data(), nis.mutable_data()};
+    const Scalar* input = samples.data();
+    trackers::QuadratureBatch<Scalar> moved = batch_;
     {
       const py::gil_scoped_release free;
-      constexpr std::size_t kGroup = trackers::QuadratureBatch::kGroup;
+      constexpr std::size_t kGroup = trackers::QuadratureBatch<Scalar>::kGroup;
       in_threads((size() + kGroup - 1) / kGroup, threads,
                  [&](std::size_t first, std::size_t last, Interruption& interruption) {
                    const TrackerArithmetic arithmetic;
@@ -160,10 +182,21 @@ class PackedQuadratureBatch {
   }
 
  private:
-  static trackers::QuadratureBatch made(const Array& design, const Array& state, const Array& covariance) {
+  static trackers::QuadratureBatch<Scalar> made(const Array& design, const Array& state,
+                                                const Array& covariance) {
     const TrackerArithmetic arithmetic;
     const auto [designs, starts] = quadrature_starts(design, state, covariance);
-    return {designs, starts};
+    if constexpr (std::is_same_v<Scalar, double>) {
+      return {designs, starts};
+    } else {
+      std::vector<trackers::ToneModel<Scalar>> rounded_designs;
+      std::vector<trackers::ToneEstimate<Scalar>> rounded_starts;
+      for (std::size_t i = 0; i < designs.size(); ++i) {
+        rounded_designs.push_back(rounded(designs[i]));
+        rounded_starts.push_back(converted<Scalar>(starts[i]));
+      }
+      return {rounded_designs, rounded_starts};
+    }
   }
   static trackers::InstructionSet named(const std::string& instructions) {
     using trackers::InstructionSet;
@@ -176,7 +209,7 @@ class PackedQuadratureBatch {
     }
     return set;
   }
-  trackers::QuadratureBatch batch_;
+  trackers::QuadratureBatch<Scalar> batch_;
 };
 
 /// The sets that this processor has, the widest last.
@@ -213,7 +246,8 @@ template <typename Tracker>
 Estimate estimate_of(const Batch<Tracker>& batch, std::size_t i) {
   return batch.trackers()[i].estimate();
 }
-Estimate estimate_of(const PackedQuadratureBatch& batch, std::size_t i) {
+template <typename Scalar>
+Estimate estimate_of(const PackedQuadratureBatch<Scalar>& batch, std::size_t i) {
   return batch.estimate(i);
 }
 
@@ -233,6 +267,17 @@ py::tuple estimates(const Trackers& batch) {
   return py::make_tuple(state, covariance);
 }
 
+template <typename Scalar>
+void bind_packed_batch(py::module_& module, const char* name) {
+  using Packed = PackedQuadratureBatch<Scalar>;
+  py::class_<Packed>(module, name)
+      .def(py::init<const Array&, const Array&, const Array&>())
+      .def("__len__", &Packed::size)
+      .def("__copy__", [](const Packed& batch) { return Packed(batch); })
+      .def("run", &Packed::run, py::arg("samples"), py::arg("threads"), py::arg("instructions") = "")
+      .def("estimates", &estimates<Packed>);
+}
+
 }  // namespace
 
 void bind_extended_kalman_filters(py::module_& module) {
@@ -240,13 +285,8 @@ void bind_extended_kalman_filters(py::module_& module) {
       .def("estimates", &estimates<Batch<QuadratureTracker>>);
   bind_batch(module, "SingleChannelBatch", single_channel_trackers)
       .def("estimates", &estimates<Batch<SingleChannelTracker>>);
-  py::class_<PackedQuadratureBatch>(module, "PackedQuadratureBatch")
-      .def(py::init<const Array&, const Array&, const Array&>())
-      .def("__len__", &PackedQuadratureBatch::size)
-      .def("__copy__", [](const PackedQuadratureBatch& batch) { return PackedQuadratureBatch(batch); })
-      .def("run", &PackedQuadratureBatch::run, py::arg("samples"), py::arg("threads"),
-           py::arg("instructions") = "")
-      .def("estimates", &estimates<PackedQuadratureBatch>);
+  bind_packed_batch<double>(module, "PackedQuadratureBatch");
+  bind_packed_batch<float>(module, "SinglePackedQuadratureBatch");
   module.def("instruction_sets", &instruction_sets);
   py::register_exception<trackers::ZeroInnovationVariance>(module, "ZeroInnovationVariance",
                                                            PyExc_ArithmeticError);

@@ -52,7 +52,7 @@ class TrackerArithmetic {
 };
 
 /// Throws std::invalid_argument unless the array is (1 or size, n, channels).
-inline void require_samples(const Array& samples, std::size_t channels, std::size_t size) {
+inline void require_samples(const py::array& samples, std::size_t channels, std::size_t size) {
   if (samples.ndim() != 3 || samples.shape(2) != static_cast<py::ssize_t>(channels) ||
       (samples.shape(0) != 1 && samples.shape(0) != static_cast<py::ssize_t>(size))) {
     throw std::invalid_argument("samples of another shape than the batch");

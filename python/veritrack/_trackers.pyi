@@ -1,9 +1,10 @@
-"""Batches of trackers on arrays of doubles; veritrack.trackers wraps them."""
+"""Batches of trackers on arrays; veritrack.trackers wraps them."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
+_SingleArray = NDArray[np.float32]
 _Found = tuple[_Array, _Array, _Array, _Array]
 
 class ZeroInnovationVariance(ArithmeticError):
@@ -19,6 +20,13 @@ class QuadratureBatch(_Batch):
 
 class PackedQuadratureBatch(QuadratureBatch):
     def run(self, samples: _Array, threads: int, instructions: str = "") -> _Found: ...
+
+class SinglePackedQuadratureBatch:
+    def __init__(self, design: _Array, state: _Array, covariance: _Array) -> None: ...
+    def __len__(self) -> int: ...
+    def run(self, samples: _SingleArray, threads: int, instructions: str = "") -> tuple[
+        _SingleArray, _SingleArray, _SingleArray, _SingleArray]: ...
+    def estimates(self) -> tuple[_Array, _Array]: ...
 
 def instruction_sets() -> list[str]: ...
 

@@ -16,7 +16,7 @@ import os
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _trackers
 from ._trackers import ZeroInnovationVariance
@@ -157,7 +157,8 @@ def _one_channel(samples: ArrayLike) -> Array:
 
 
 def _complex(pairs: Array) -> NDArray[np.complex128]:
-    return np.ascontiguousarray(pairs).view(np.complex128)[..., 0]
+    """Pairs as complex numbers of their own precision."""
+    return np.ascontiguousarray(pairs).view(np.result_type(pairs.dtype, np.complex64))[..., 0]
 
 
 class _ToneFilter(_Trackers):
@@ -270,13 +271,30 @@ class QuadratureEkf(_ToneFilter):
 class QuadratureBatch(QuadratureEkf):
     """Many filters of La Scala and Bitmead side by side: several in one register of the processor.
 
-    Parameters, results and memory are those of QuadratureEkf; 8 filters or more are worth it. The widest
+    Results and memory are those of QuadratureEkf; 32 filters or more are worth it. The widest
     instructions that the processor has are used (AVX-512, AVX2 or SSE2), and all of them give the same bits.
     From those of QuadratureEkf results differ by rounding: sine and cosine are within one unit in the last
     place here, too, but not always the same double. A certificate of the filter covers both.
+
+    Parameters
+    ----------
+    q1, q2, r, epsilon, frequency, phasor, covariance
+        As for QuadratureEkf.
+    dtype : dtype
+        numpy.float64, or numpy.float32 for twice as many filters in a register: parameters and samples are
+        rounded to single precision, and so is each operation. Tracks are then arrays of numpy.float32 and
+        numpy.complex64. Certificates about double precision do not cover it.
     """
 
-    _kind = _trackers.PackedQuadratureBatch
+    def __init__(self, q1: ArrayLike, q2: ArrayLike, r: ArrayLike, epsilon: ArrayLike = 0.0, *,
+                 frequency: ArrayLike, phasor: ArrayLike = 1.0, covariance: ArrayLike | None = None,
+                 dtype: DTypeLike = np.float64) -> None:
+        kinds = {np.dtype(np.float64): _trackers.PackedQuadratureBatch,
+                 np.dtype(np.float32): _trackers.SinglePackedQuadratureBatch}
+        if np.dtype(dtype) not in kinds:
+            raise ValueError(f"dtype {np.dtype(dtype)}; allowed: float32, float64")
+        self._kind = kinds[np.dtype(dtype)]
+        super().__init__(q1, q2, r, epsilon, frequency=frequency, phasor=phasor, covariance=covariance)
 
 
 class SingleChannelEkf(_ToneFilter):

@@ -116,7 +116,8 @@ def test_trackers_side_by_side_are_the_trackers_up_to_the_rounding_of_sine_and_c
     assert np.isnan(alone.nis).sum() == 10
 
 
-def test_all_sets_of_instructions_give_the_same_bits():
+@pytest.mark.parametrize("kind", ["PackedQuadratureBatch", "SinglePackedQuadratureBatch"])
+def test_all_sets_of_instructions_give_the_same_bits(kind):
     from veritrack import _trackers
     random = np.random.default_rng(SEED)
     design = np.column_stack([random.uniform(1e-4, 1e-2, 21), random.uniform(1e-5, 1e-2, 21),
@@ -125,9 +126,29 @@ def test_all_sets_of_instructions_give_the_same_bits():
     samples = tone(300, 0.4, noise=0.3).view(float).reshape(1, 300, 2)
     found = []
     for name in _trackers.instruction_sets():
-        batch = _trackers.PackedQuadratureBatch(design, state, np.tile(np.eye(3).ravel(), (21, 1)))
+        batch = getattr(_trackers, kind)(design, state, np.tile(np.eye(3).ravel(), (21, 1)))
         found.append(b"".join(each.tobytes() for each in batch.run(samples, 1, name)))
     assert found[0] and all(each == found[0] for each in found)
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_single_precision_is_that_of_double_to_its_digits(threads):
+    arguments = dict(q1=0.001, q2=np.geomspace(1e-4, 1e-2, 70), r=0.05, frequency=0.35)
+    samples = tone(300, 0.4, noise=0.1)
+    samples[100:105] = np.nan
+    single = veritrack.QuadratureBatch(**arguments, dtype=np.float32)
+    halves = [single.run(part, threads=threads) for part in (samples[:70], samples[70:])]
+    double = veritrack.QuadratureBatch(**arguments).run(samples, threads=threads)
+    for name, kind in (("frequency", np.float32), ("phasor", np.complex64), ("deviation", np.float32),
+                       ("innovation", np.complex64), ("nis", np.float32)):
+        found = np.concatenate([getattr(half, name) for half in halves], axis=-1)
+        assert found.dtype == kind
+        np.testing.assert_allclose(found, getattr(double, name), rtol=1e-3, atol=1e-4)
+    difference = np.abs(halves[1].frequency - double.frequency[:, 70:])
+    assert 1e-9 < difference.max() < 1e-5
+    assert single.state.shape == (70, 3) and np.array_equal(single.state[:, 2], halves[1].frequency[:, -1])
+    with pytest.raises(ValueError, match="float16"):
+        veritrack.QuadratureBatch(**arguments, dtype=np.float16)
 
 
 def test_a_row_of_samples_for_each_tracker():

@@ -6,18 +6,19 @@
 
 namespace veritrack::trackers {
 
-QuadratureBatch::QuadratureBatch(const std::vector<ToneModel<double>>& designs,
-                                 const std::vector<QuadratureEstimate<double>>& starts)
+template <typename Scalar>
+QuadratureBatch<Scalar>::QuadratureBatch(const std::vector<ToneModel<Scalar>>& designs,
+                                         const std::vector<QuadratureEstimate<Scalar>>& starts)
     : size_(designs.size()), groups_((size_ + kGroup - 1) / kGroup) {
   if (starts.size() != size_) {
     throw std::invalid_argument("as many starts as designs");
   }
   for (std::size_t t = 0; t < groups_.size() * kGroup; ++t) {
     // The last group is filled up with copies, so that no lane computes with numbers that are none.
-    const ToneModel<double>& design = designs[t < size_ ? t : size_ - 1];
-    const QuadratureEstimate<double>& start = starts[t < size_ ? t : size_ - 1];
-    const FactoredCovariance<double>& p = start.covariance;
-    const std::array<double, kNumbers> numbers{design.q1,           design.q2,        design.r,
+    const ToneModel<Scalar>& design = designs[t < size_ ? t : size_ - 1];
+    const QuadratureEstimate<Scalar>& start = starts[t < size_ ? t : size_ - 1];
+    const FactoredCovariance<Scalar>& p = start.covariance;
+    const std::array<Scalar, kNumbers> numbers{design.q1,           design.q2,        design.r,
                                                design.epsilon,      start.in_phase,   start.quadrature,
                                                start.frequency,     p.conditional_11, p.conditional_12,
                                                p.conditional_22,    p.regression_1,   p.regression_2,
@@ -28,24 +29,35 @@ QuadratureBatch::QuadratureBatch(const std::vector<ToneModel<double>>& designs,
   }
 }
 
-QuadratureEstimate<double> QuadratureBatch::filtered(std::size_t t) const {
+template <typename Scalar>
+QuadratureEstimate<Scalar> QuadratureBatch<Scalar>::filtered(std::size_t t) const {
   const auto number = [&](std::size_t row) { return groups_.at(t / kGroup)[row][t % kGroup]; };
   return {
       number(4), number(5), number(6), {number(7), number(8), number(9), number(10), number(11), number(12)}};
 }
 
-void QuadratureBatch::run(const BatchSamples& samples, const BatchTargets& targets, std::size_t first,
-                          std::size_t last, InstructionSet set) {
+template <typename Scalar>
+void QuadratureBatch<Scalar>::run(const BatchSamples<Scalar>& samples, const BatchTargets<Scalar>& targets,
+                                  std::size_t first, std::size_t last, InstructionSet set) {
   const bool is_part = first % kGroup == 0 && (last == size_ || (last < size_ && last % kGroup == 0));
   if (!is_part || !has(set)) {
     throw std::invalid_argument("an invalid part of the batch, or instructions that this processor lacks");
   }
-  detail::RunGroups* run_groups = set == InstructionSet::avx512 ? detail::run_groups_avx512
-                                  : set == InstructionSet::avx2 ? detail::run_groups_avx2
-                                                                : detail::run_groups_sse2;
-  if (first < last) {
-    run_groups(groups_.front().front().data(), samples, targets, first, last);
+  if (first == last) {
+    return;
+  }
+  Scalar* groups = groups_.front().front().data();
+  switch (set) {
+    case InstructionSet::sse2:
+      return detail::run_groups_sse2(groups, samples, targets, first, last);
+    case InstructionSet::avx2:
+      return detail::run_groups_avx2(groups, samples, targets, first, last);
+    case InstructionSet::avx512:
+      return detail::run_groups_avx512(groups, samples, targets, first, last);
   }
 }
+
+template class QuadratureBatch<double>;
+template class QuadratureBatch<float>;
 
 }  // namespace veritrack::trackers

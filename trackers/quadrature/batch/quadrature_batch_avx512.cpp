@@ -3,9 +3,14 @@
 
 namespace veritrack::trackers::detail {
 
-void run_groups_avx512(double* groups, const BatchSamples& samples, const BatchTargets& targets,
+void run_groups_avx512(double* groups, const BatchSamples<double>& samples,
+                       const BatchTargets<double>& targets, std::size_t first, std::size_t last) {
+  run_groups<double, 8>(groups, samples, targets, first, last);
+}
+
+void run_groups_avx512(float* groups, const BatchSamples<float>& samples, const BatchTargets<float>& targets,
                        std::size_t first, std::size_t last) {
-  run_groups<8>(groups, samples, targets, first, last);
+  run_groups<float, 16>(groups, samples, targets, first, last);
 }
 
 }  // namespace veritrack::trackers::detail

@@ -2,78 +2,112 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "tests/support/random.hpp"
+#include "trackers/packed_sine_cosine.hpp"
 
 using namespace veritrack::trackers;
 using veritrack::test::Random;
 
 namespace {
 
-constexpr std::size_t kTrackers = 21;  // not a multiple of any number of lanes
-constexpr std::size_t kSamples = 400;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kTrackers = 149;  // not a multiple of any number of lanes
+constexpr std::size_t kSamples = 403;
 
+template <typename Scalar>
+constexpr Scalar kNone = std::numeric_limits<Scalar>::quiet_NaN();
+
+template <typename Scalar>
 struct Problem {
-  std::vector<ToneModel<double>> designs;
-  std::vector<QuadratureEstimate<double>> starts;
-  std::vector<double> samples;  ///< a row for each
+  std::vector<ToneModel<Scalar>> designs;
+  std::vector<QuadratureEstimate<Scalar>> starts;
+  std::vector<Scalar> samples;  ///< a row for each
 };
 
-Problem random_problem() {
-  Random random(77);
-  Problem problem;
+template <typename Scalar>
+Problem<Scalar> random_problem() {
+  Random source(77);
+  const auto uniform = [&](double low, double high) {
+    return static_cast<Scalar>(source.uniform(low, high));
+  };
+  Problem<Scalar> problem;
   for (std::size_t t = 0; t < kTrackers; ++t) {
-    problem.designs.push_back({random.uniform(1e-5, 1e-2), random.uniform(1e-5, 1e-2),
-                               random.uniform(1e-2, 1.0), t % 2 == 0 ? 0.0 : random.uniform(0.0, 0.02)});
-    const double frequency = random.uniform(-3.0, 3.0);
+    const Scalar leak = t % 2 == 0 ? Scalar(0.0) : uniform(0.0, 0.02);
+    problem.designs.push_back({uniform(1e-5, 1e-2), uniform(1e-5, 1e-2), uniform(1e-2, 1.0), leak});
+    const double frequency = source.uniform(-3.0, 3.0);
     // Some start far away, where sines are those of the C library: in no other lane, though.
     const double off = t % 5 == 2 ? 100.0 : 0.05;
-    problem.starts.push_back({1.0, 0.1, frequency + off, {0.1, 0.01, 0.2, 0.02, -0.01, 0.05}});
+    const auto number = [](double x) { return static_cast<Scalar>(x); };
+    problem.starts.push_back(
+        {number(1.0),
+         number(0.1),
+         number(frequency + off),
+         {number(0.1), number(0.01), number(0.2), number(0.02), number(-0.01), number(0.05)}});
     for (std::size_t k = 1; k <= kSamples; ++k) {
       const bool missing = t == 3 && k > 50 && k < 60;
       const double phase = frequency * static_cast<double>(k);
-      problem.samples.push_back(missing ? kNone : std::cos(phase) + random.uniform(-0.1, 0.1));
-      problem.samples.push_back(std::sin(phase) + random.uniform(-0.1, 0.1));
+      const double in_phase = std::cos(phase) + source.uniform(-0.1, 0.1);
+      problem.samples.push_back(missing ? kNone<Scalar> : number(in_phase));
+      problem.samples.push_back(number(std::sin(phase) + source.uniform(-0.1, 0.1)));
     }
   }
   return problem;
 }
 
+template <typename Scalar>
 struct Run {
-  std::vector<double> state = std::vector<double>(3 * kTrackers * kSamples);
-  std::vector<double> deviation = std::vector<double>(kTrackers * kSamples);
-  std::vector<double> innovation = std::vector<double>(2 * kTrackers * kSamples);
-  std::vector<double> nis = std::vector<double>(kTrackers * kSamples);
+  std::vector<Scalar> state = std::vector<Scalar>(3 * kTrackers * kSamples);
+  std::vector<Scalar> deviation = std::vector<Scalar>(kTrackers * kSamples);
+  std::vector<Scalar> innovation = std::vector<Scalar>(2 * kTrackers * kSamples);
+  std::vector<Scalar> nis = std::vector<Scalar>(kTrackers * kSamples);
   [[nodiscard]] std::vector<std::uint64_t> bits() const {
     std::vector<std::uint64_t> all;
     for (const auto* part : {&state, &deviation, &innovation, &nis}) {
-      for (const double number : *part) {
-        all.push_back(std::bit_cast<std::uint64_t>(std::isnan(number) ? kNone : number));
+      for (const Scalar number : *part) {
+        // A float is a double, too.
+        all.push_back(std::bit_cast<std::uint64_t>(std::isnan(number) ? kNone<double> : double{number}));
       }
     }
     return all;
   }
 };
 
-Run run_with(InstructionSet set, const Problem& problem) {
-  QuadratureBatch batch(problem.designs, problem.starts);
-  Run run;
+template <typename Scalar>
+Run<Scalar> run_with(InstructionSet set, const Problem<Scalar>& problem) {
+  QuadratureBatch<Scalar> batch(problem.designs, problem.starts);
+  Run<Scalar> run;
   batch.run({problem.samples.data(), 2 * kSamples, kSamples},
             {run.state.data(), run.deviation.data(), run.innovation.data(), run.nis.data()}, set);
   return run;
 }
 
+/// A tracker over `Number`, which may be packed: the same in every lane.
+template <typename Number, typename Scalar>
+QuadratureEkf<Number> tracker_of(const ToneModel<Scalar>& d, const QuadratureEstimate<Scalar>& s) {
+  const FactoredCovariance<Scalar>& p = s.covariance;
+  return {{Number(d.q1), Number(d.q2), Number(d.r), Number(d.epsilon)},
+          {Number(s.in_phase),
+           Number(s.quadrature),
+           Number(s.frequency),
+           {Number(p.conditional_11), Number(p.conditional_12), Number(p.conditional_22),
+            Number(p.regression_1), Number(p.regression_2), Number(p.frequency_variance)}}};
+}
+
 }  // namespace
 
-TEST_CASE("every set of instructions that this processor has gives the same bits") {
-  const Problem problem = random_problem();
-  const Run first = run_with(InstructionSet::sse2, problem);
+TEST_CASE_TEMPLATE("every set of instructions that this processor has gives the same bits", Scalar, double,
+                   float) {
+  const auto problem = random_problem<Scalar>();
+  const auto first = run_with(InstructionSet::sse2, problem);
   for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
     if (has(set)) {
       CHECK(run_with(set, problem).bits() == first.bits());
@@ -83,44 +117,71 @@ TEST_CASE("every set of instructions that this processor has gives the same bits
   }
 }
 
-TEST_CASE("a batch is its trackers, up to the rounding of sine and cosine") {
-  const Problem problem = random_problem();
-  const Run run = run_with(widest_instruction_set(), problem);
-  double worst = 0.0;
+TEST_CASE_TEMPLATE("a batch has the bits of the template over packed numbers", Scalar, double, float) {
+  using Number = Packed<Scalar, 16 / sizeof(Scalar)>;
+  const auto problem = random_problem<Scalar>();
+  const auto run = run_with(widest_instruction_set(), problem);
+  int different = 0;
   for (std::size_t t = 0; t < kTrackers; ++t) {
-    QuadratureEkf<double> alone(problem.designs[t], problem.starts[t]);
-    for (std::size_t k = 0; k < kSamples; ++k) {
-      const std::size_t row = t * kSamples + k;
-      const double* sample = problem.samples.data() + 2 * row;
+    auto alone = tracker_of<Number>(problem.designs[t], problem.starts[t]);
+    for (std::size_t row = t * kSamples; row < (t + 1) * kSamples; ++row) {
+      const Scalar* sample = problem.samples.data() + 2 * row;
       if (std::isnan(sample[0])) {
         alone.time_update();
-        alone = QuadratureEkf<double>(alone.design(), alone.predicted());
+        alone = QuadratureEkf<Number>(alone.design(), alone.predicted());
+      } else {
+        alone.step(Number(sample[0]), Number(sample[1]));
+        different += run.innovation[2 * row + 1] != sample[1] - alone.predicted().quadrature.lane(0) ? 1 : 0;
+      }
+      different += run.state[3 * row] != alone.filtered().in_phase.lane(0) ? 1 : 0;
+      different += run.state[3 * row + 1] != alone.filtered().quadrature.lane(0) ? 1 : 0;
+      different += run.state[3 * row + 2] != alone.filtered().frequency.lane(0) ? 1 : 0;
+    }
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE_TEMPLATE("a batch is its trackers, up to the rounding of sine and cosine", Scalar, double, float) {
+  const auto problem = random_problem<Scalar>();
+  const auto run = run_with(widest_instruction_set(), problem);
+  Scalar worst(0.0);
+  for (std::size_t t = 0; t < kTrackers; ++t) {
+    QuadratureEkf<Scalar> alone(problem.designs[t], problem.starts[t]);
+    // Until a start that is far away locks, it amplifies its last bit: too much in single precision.
+    const bool compared = t % 5 != 2 || std::is_same_v<Scalar, double>;
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      const std::size_t row = t * kSamples + k;
+      const Scalar* sample = problem.samples.data() + 2 * row;
+      if (std::isnan(sample[0])) {
+        alone.time_update();
+        alone = QuadratureEkf<Scalar>(alone.design(), alone.predicted());
         CHECK(std::isnan(run.innovation[2 * row + 1]));
         CHECK(std::isnan(run.nis[row]));
       } else {
         alone.step(sample[0], sample[1]);
-        worst =
-            std::max(worst, std::fabs(run.innovation[2 * row] - (sample[0] - alone.predicted().in_phase)));
+        const Scalar innovation = sample[0] - alone.predicted().in_phase;
+        worst = compared ? std::max(worst, std::fabs(run.innovation[2 * row] - innovation)) : worst;
       }
-      worst = std::max(
-          {worst, std::fabs(run.state[3 * row] - alone.filtered().in_phase),
+      const Scalar off = std::max(
+          {std::fabs(run.state[3 * row] - alone.filtered().in_phase),
            std::fabs(run.state[3 * row + 1] - alone.filtered().quadrature),
            std::fabs(run.state[3 * row + 2] - alone.filtered().frequency),
            std::fabs(run.deviation[row] - std::sqrt(alone.filtered().covariance.frequency_variance))});
+      REQUIRE(std::isfinite(off));
+      worst = compared ? std::max(worst, off) : worst;
     }
   }
-  CHECK(worst < 1e-12);
+  // Some 4500 units in the last place of 1.
+  CHECK(worst < Scalar(4500) * std::numeric_limits<Scalar>::epsilon());
 }
 
-TEST_CASE("a recording in parts and trackers in parts are the whole") {
-  const Problem problem = random_problem();
-  QuadratureBatch whole(problem.designs, problem.starts);
-  QuadratureBatch parts = whole;
-  std::vector<double> shared(problem.samples.begin(), problem.samples.begin() + 2 * kSamples);
+TEST_CASE_TEMPLATE("a recording in parts and trackers in parts are the whole", Scalar, double, float) {
+  const auto problem = random_problem<Scalar>();
+  QuadratureBatch<Scalar> whole(problem.designs, problem.starts);
+  QuadratureBatch<Scalar> parts = whole;
+  std::vector<Scalar> shared(problem.samples.begin(), problem.samples.begin() + 2 * kSamples);
   whole.run({shared.data(), 0, kSamples}, {});
-  for (const auto& [first, last] : {std::pair(8, 16), std::pair(0, 8), std::pair(16, 21)}) {
-    const auto from = static_cast<std::size_t>(first);
-    const auto to = static_cast<std::size_t>(last);
+  for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>(64, 128), {0, 64}, {128, kTrackers}}) {
     parts.run({shared.data(), 0, 100}, {}, from, to);
     parts.run({shared.data() + 200, 0, kSamples - 100}, {}, from, to);
   }
@@ -131,11 +192,11 @@ TEST_CASE("a recording in parts and trackers in parts are the whole") {
 }
 
 TEST_CASE("parts that would move their neighbours are refused") {
-  const Problem problem = random_problem();
-  QuadratureBatch batch(problem.designs, problem.starts);
-  const BatchSamples samples{problem.samples.data(), 2 * kSamples, kSamples};
-  CHECK_THROWS_AS(batch.run(samples, {}, 1, 8), std::invalid_argument);
-  CHECK_THROWS_AS(batch.run(samples, {}, 0, 9), std::invalid_argument);
-  CHECK_THROWS_AS(batch.run(samples, {}, 0, 24), std::invalid_argument);
-  CHECK_THROWS_AS(QuadratureBatch(problem.designs, {}), std::invalid_argument);
+  const auto problem = random_problem<double>();
+  QuadratureBatch<double> batch(problem.designs, problem.starts);
+  const BatchSamples<double> samples{problem.samples.data(), 2 * kSamples, kSamples};
+  CHECK_THROWS_AS(batch.run(samples, {}, 1, 64), std::invalid_argument);
+  CHECK_THROWS_AS(batch.run(samples, {}, 0, 65), std::invalid_argument);
+  CHECK_THROWS_AS(batch.run(samples, {}, 0, 160), std::invalid_argument);
+  CHECK_THROWS_AS(QuadratureBatch<double>(problem.designs, {}), std::invalid_argument);
 }

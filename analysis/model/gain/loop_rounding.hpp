@@ -14,6 +14,7 @@ struct LoopRounding {
   std::vector<double> room;  ///< by state: how far it may be from the steady state; infinite for angles
   std::vector<double> next;  ///< by state: what a step is off, at most
   double frequency = 0.0;    ///< the same of the reported frequency, rad/sample
+  double most_noise = 0.0;   ///< signal units
 };
 
 /// The rounding of a step while no state is further than `room` from the steady state, at the frequencies of

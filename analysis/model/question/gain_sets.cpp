@@ -201,7 +201,7 @@ LoopRounding rounding_of(const SetQuestion& question, const FoundLoop& found, co
     throw NoRounding("in one channel it is known over the phases");
   }
   LoopNetwork network = gains.network();
-  add_rounding(network, {std::vector<double>(n, INFINITY), std::vector<double>(n, 0.0), 0.0});
+  add_rounding(network, {std::vector<double>(n, INFINITY), std::vector<double>(n, 0.0), 0.0, INFINITY});
   const std::optional<GainBounds> probe =
       GainBounds::make(std::move(network), gains.samples(), gains.blocks());
   if (!probe) {

@@ -44,7 +44,7 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
      "  veritrack map my-loop.toml --over kp=1000:4000"},
     {"show",
      "  veritrack show my-loop.toml\n"
-     "  veritrack show my-loop.toml --language c > tracker.c"},
+     "  veritrack show my-loop.toml --language c --precision single > tracker.c"},
     {"tie",
      "  veritrack tie my-firmware.toml --build \"gcc -O2\" --build \"clang -O2\"\n"
      "  veritrack tie my-firmware.toml --build \"arm-none-eabi-gcc -mcpu=cortex-m4 -T board.ld start.c\" "
@@ -208,6 +208,9 @@ void add_show(CLI::App& app, Arguments& into) {
   show->add_option("--language", into.show.language, "in which language")
       ->check(CLI::IsMember(veritrack::certificates::code_language_names()))
       ->capture_default_str();
+  show->add_option("--precision", into.show.precision,
+                   "with --language c: the operations that a certificate in this arithmetic is about")
+      ->check(CLI::IsMember({"single", "double"}));
 }
 
 void add_tie(CLI::App& app, Arguments& into) {

@@ -180,7 +180,15 @@ ExitStatus run_show(const ShowOptions& options) {
     refuse_tracker(options.design, design, "show",
                    certificates::names_of_kinds([](const auto& each) { return each.show != nullptr; }));
   }
-  fmt::print("{}", kind.show(design, certificates::code_language(options.language).value()));
+  certificates::CodeLanguage language = certificates::code_language(options.language).value();
+  if (!options.precision.empty()) {
+    if (language != certificates::CodeLanguage::c) {
+      throw certificates::InputError(options.design, {}, "--precision without --language c; allowed: both");
+    }
+    language = options.precision == "single" ? certificates::CodeLanguage::single_precision_c
+                                             : certificates::CodeLanguage::double_precision_c;
+  }
+  fmt::print("{}", kind.show(design, language));
   return all_proved;
 }
 

@@ -56,6 +56,7 @@ struct MapOptions {
 struct ShowOptions {
   std::string design;
   std::string language = "formulas";
+  std::string precision;  ///< of C: single or double; empty: that of doubles, as all languages
 };
 
 struct TieOptions {

@@ -8,8 +8,9 @@
 
 namespace veritrack::certificates {
 
-/// The language. `formulas` is that of the design file.
-enum class CodeLanguage { formulas, c, python, octave };
+/// The language. `formulas` is that of the design file; the last two are C in one format of numbers, which
+/// computes what a certificate in this arithmetic is about.
+enum class CodeLanguage { formulas, c, python, octave, single_precision_c, double_precision_c };
 
 /// The names by which a user asks for them: "formulas", "c", "python", "octave".
 [[nodiscard]] const std::vector<std::string>& code_language_names();

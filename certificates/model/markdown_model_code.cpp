@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/model/model_words.hpp"
 #include "trackers/code/listing.hpp"
 
 namespace veritrack::certificates {
@@ -60,11 +61,31 @@ std::string shown(std::string_view listing) {
   return end < listing.size() ? text + "... (the rest is in certificate.json)\n" : text;
 }
 
+std::string arithmetic_section(const ModelTable& model, bool is_rounded, const std::string& no_rounding) {
+  const auto format = written_format(model);
+  if (!format) {
+    return "";
+  }
+  return fmt::format(
+             "## The arithmetic\n\nThe formulas are computed in {}, in the order in which they are written "
+             "(docs/model.md). `veritrack show --language c --precision {}` prints them as a function in "
+             "C.\n\n",
+             words_of_format(*format), format->bits == 32 ? "single" : "double") +
+         (is_rounded
+              ? "- Rounding is in the bounds: what each operation is off, at most, is one more input of the "
+                "loop "
+                "(docs/gain-proof.md, section 12). Statements to first order are about exact arithmetic, and "
+                "say so.\n\n"
+              : fmt::format("- The statements are about exact arithmetic: the rounding is not in their "
+                            "bounds{}{}.\n\n",
+                            no_rounding.empty() ? "" : ", because ", no_rounding));
+}
+
 }  // namespace
 
 std::string model_code_section(const ModelTables& tables, bool is_rounded, const std::string& no_rounding) {
   if (!tables.model.compiled) {
-    return "";
+    return arithmetic_section(tables.model, is_rounded, no_rounding);
   }
   const code::CompiledCode& compiled = *tables.model.compiled;
   const bool has_angles = !tables.model.angles.empty();

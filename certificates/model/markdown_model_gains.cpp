@@ -257,7 +257,8 @@ std::string gains_coverage_section(const ModelTables& tables, bool is_rounded,
       "- The proof is in `docs/gain-proof.md` of the program's sources. Every bound was computed with "
       "outward "
       "rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
-      is_rounded ? "the listing above in the program's arithmetic"
+      is_rounded ? tables.model.compiled ? "the listing above in the program's arithmetic"
+                                         : "the recursion above in its arithmetic"
                  : "the recursion above in exact arithmetic",
       is_rounded ? "the quantisation of samples, and interrupts that change a state between two operations"
                  : "the rounding of the program that runs, quantised samples, and whatever the formulas do "

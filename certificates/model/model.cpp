@@ -389,6 +389,10 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
   for (const std::string& state : model.states) {
     model.recursion.is_angle.push_back(std::find(angles.begin(), angles.end(), state) != angles.end());
   }
+  if (const auto format = written_format(table); format && !recipe.filter) {
+    model.written = language::written_listing(
+        {parameters, recipe.step, model.states, model.samples, angles, frequency}, *format);
+  }
   if (recipe.filter && angles.empty()) {
     const int estimates = constants + static_cast<int>(recipe.filter->states.size());
     const bool reads_covariance = language::depends_on_inputs(model.frequency.program, estimates, 0,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certificates/model/language/compiler.hpp"
+#include "certificates/model/language/written_listing.hpp"
 #include "certificates/model/model_design.hpp"
 #include "trackers/model/filter_parts.hpp"
 #include "trackers/model/model_tracker.hpp"
@@ -22,10 +23,11 @@ struct Model {
   trackers::Recursion recursion;
   /// For a filter with a linear measurement, whose frequency is a formula of the estimate.
   std::optional<trackers::FilterParts> filter;
-  language::CompiledProgram step;           ///< of the recursion, with places and names
-  language::CompiledProgram frequency;      ///< likewise
-  trackers::StraightLineProgram start{0};   ///< inputs A, omega: the state where a search begins
-  trackers::StraightLineProgram signal{0};  ///< inputs A, phi: the samples, 2 pi-periodic in phi
+  language::CompiledProgram step;                   ///< of the recursion, with places and names
+  language::CompiledProgram frequency;              ///< likewise
+  trackers::StraightLineProgram start{0};           ///< inputs A, omega: the state where a search begins
+  std::optional<language::WrittenListing> written;  ///< in an arithmetic that is not exact
+  trackers::StraightLineProgram signal{0};          ///< inputs A, phi: the samples, 2 pi-periodic in phi
 };
 
 /// The formulas of the signal; where none are given, the tone alone: in phase, and in quadrature.

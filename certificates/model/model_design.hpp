@@ -36,12 +36,20 @@ struct ModelTable {
   std::vector<NamedText> units;    ///< of states, for the reader only
   SourceText step;
   SourceText frequency;
+  SourceText arithmetic;  ///< of the formulas: exact, binary32, binary64; empty: exact
   std::vector<NamedText> start;
   std::optional<ModelEkfTable> ekf;  ///< in place of states and step
   code::CodeTable code;              ///< the table [code]
   std::optional<code::CompiledCode>
       compiled;  ///< of [code]: it has filled in samples, states, angles, step, frequency
 };
+
+/// The format of the formulas' arithmetic; none where it is exact.
+[[nodiscard]] inline std::optional<trackers::code::Format> written_format(const ModelTable& model) {
+  return model.arithmetic.text == "binary32"   ? std::optional(trackers::code::kSingle)
+         : model.arithmetic.text == "binary64" ? std::optional(trackers::code::kDouble)
+                                               : std::nullopt;
+}
 
 /// [assume] of a model.
 struct ModelAssumptions {

@@ -201,6 +201,9 @@ Json model_design_json(const Design& design) {
     recursion["states"] = texts_json(model.states);
     recursion["step"] = model.step.text;
   }
+  if (!model.arithmetic.text.empty()) {
+    recursion["arithmetic"] = model.arithmetic.text;
+  }
   Json tables{{"model", recursion}, {"assume", assumed}, {"require", required}};
   if (model.compiled) {
     tables["code"] = code_json(model.code, *model.compiled);

@@ -83,6 +83,14 @@ void require_word(const TomlValue& value, std::string_view word) {
   }
 }
 
+void arithmetic_of_formulas(const TomlValue& value, ModelTable& target) {
+  target.arithmetic = value.source_text(100);
+  const std::string& text = target.arithmetic.text;
+  if (text != "exact" && text != "binary32" && text != "binary64") {
+    value.refuse_kind();
+  }
+}
+
 constexpr std::array<std::string_view, 7> kEkfKeys{"states", "predict", "measure", "Q",
                                                    "R",      "update",  "jacobian"};
 
@@ -153,6 +161,10 @@ constexpr std::array kModelKeys{
                extended_kalman_filter, kOptional, kContractOfEkf},
     Key<Table>{"frequency", "a formula of the states: the estimated frequency in rad/sample",
                text<&Table::frequency, kLongestFormula>, kOptional, kOnlyEqual},
+    Key<Table>{"arithmetic",
+               "'exact', or that of the formulas as they are written: 'binary32', single precision, or "
+               "'binary64', double",
+               arithmetic_of_formulas, kOptional, kOnlyEqual},
     Key<Table>{"start", "a table of formulas in A and omega, one for each state",
                names_and_formulas<&Table::start>, kOptional, kNoContract},
 };
@@ -376,6 +388,14 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   }
   if (model.ekf.has_value() == !model.states.empty() || model.ekf.has_value() == !model.step.text.empty()) {
     return TableObjection{"model", "allowed: either states and step, or the table [model.ekf]", {}};
+  }
+  if (written_format(model) && (model.ekf || model.compiled)) {
+    return TableObjection{"model",
+                          model.ekf ? "an arithmetic of [model.ekf], whose recursion is not written; "
+                                      "allowed: arithmetic = 'exact', or its recursion as a step"
+                                    : "an arithmetic beside [code], whose program has its own; allowed: "
+                                      "[code] alone",
+                          model.arithmetic.position};
   }
   if (require.sets.settles_within.has_value() != require.sets.settled_below.has_value()) {
     return TableObjection{"require", "allowed: settles_within and settled_below together, or neither", {}};

@@ -18,6 +18,7 @@
 #include "certificates/model/model_tuning.hpp"
 #include "certificates/model/recursion_text.hpp"
 #include "certificates/model/tie/tie.hpp"
+#include "certificates/model/written_code.hpp"
 
 namespace veritrack::certificates {
 
@@ -30,6 +31,10 @@ std::string title_of(const Design& design) {
 std::string show(const Design& design, CodeLanguage language) {
   const rigor::UpwardRounding upward;
   const ModelTables& tables = model_tables(design);
+  if (language == CodeLanguage::single_precision_c || language == CodeLanguage::double_precision_c) {
+    return written_code(tables, title_of(design),
+                        language == CodeLanguage::single_precision_c ? "binary32" : "binary64");
+  }
   return recursion_text(make_model(tables.model, tables.assume.signal), title_of(design), language);
 }
 

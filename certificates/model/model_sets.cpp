@@ -138,29 +138,54 @@ std::string words_without_bound(const trackers::code::Listing& listing, int numb
   const trackers::code::Instruction& at = listing.instructions[static_cast<std::size_t>(number)];
   const trackers::code::OperationName* known = trackers::code::name_of(at.operation);
   const std::string_view name = known != nullptr ? known->name : "a value";
+  if (at.place.file < 0 && at.place.line > 0) {
+    return fmt::format("no bound is known for `{}` in line {}{}", name, at.place.line,
+                       at.operation != trackers::code::Operation::atan2
+                           ? ""
+                           : ", which jumps at half a turn unless stays_within(..., -3.14, 3.14) limits it");
+  }
   return at.place.file < 0 ? fmt::format("no bound is known for an operation `{}`", name)
                            : fmt::format("no bound is known for `{}` in line {} of {}", name, at.place.line,
                                          listing.files[static_cast<std::size_t>(at.place.file)]);
 }
 
+/// Of the states, then of the frequency. Throws NoRounding.
+std::vector<double> bounds_of(const trackers::code::Listing& listing, const model::code::StepRanges& ranges) {
+  int without = -1;
+  std::optional<model::code::StepRounding> found = model::code::step_rounding(listing, ranges, &without);
+  if (!found) {
+    throw model::NoRounding(words_without_bound(listing, without));
+  }
+  found->next.push_back(found->frequency);
+  return std::move(found->next);
+}
+
 /// What rounding adds to a step of the program of [code].
 model::RoundingOfStep rounding_of(const code::CompiledCode& code) {
   return [&code](const std::vector<Interval>& states, const Interval& sample) {
-    model::code::StepRanges ranges{states, sample, code.recursion.bases};
+    model::code::StepRanges ranges{states, sample, code.recursion.bases, nullptr, 0.0};
     for (std::size_t i = 0; i < states.size(); ++i) {
       const auto angle = code.recursion.ranges.find(code.listing.states[i].input);
       if (angle != code.recursion.ranges.end()) {
         ranges.states[i] = Interval::from_bounds(angle->second.low, angle->second.high);
       }
     }
-    int without = -1;
-    std::optional<model::code::StepRounding> found =
-        model::code::step_rounding(code.replaced, ranges, &without);
-    if (!found) {
-      throw model::NoRounding(words_without_bound(code.listing, without));
+    return bounds_of(code.replaced, ranges);
+  };
+}
+
+/// What rounding adds to a step of formulas. Angles are wrapped to half a turn.
+model::RoundingOfStep rounding_of(const language::WrittenListing& written, const std::vector<bool>& is_angle,
+                                  double least_sample) {
+  return [&written, is_angle, least_sample](const std::vector<Interval>& states, const Interval& sample) {
+    constexpr double kHalfTurn = 3.1417;  // and what a wrap may be off
+    model::code::StepRanges ranges{states, sample, {}, &written.facts, least_sample};
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (is_angle[i]) {
+        ranges.states[i] = Interval::from_bounds(-kHalfTurn, kHalfTurn);
+      }
     }
-    found->next.push_back(found->frequency);
-    return std::move(found->next);
+    return bounds_of(written.listing, ranges);
   };
 }
 
@@ -170,6 +195,11 @@ model::SetQuestion question_of(const Model& model, const ModelTables& tables, bo
   if (tables.model.compiled && tables.model.compiled->recursion.ranges_keep_obligations) {
     question.rounding = rounding_of(*tables.model.compiled);
     question.turned = tables.model.compiled->arc_tangent ? tables.model.compiled->arc_tangent->error : 0.0;
+  }
+  if (model.written) {
+    const rigor::Interval share(1.0 - model::kMostNoise);
+    question.rounding =
+        rounding_of(*model.written, model.recursion.is_angle, (share * assume.amplitude[0].value).lower());
   }
   question.tone.filter = by_structure && bounds_covariance(model, tables) ? question.tracker.filter : nullptr;
   if (is_constant_in_range(assume)) {

@@ -3,6 +3,17 @@
 namespace veritrack::certificates {
 
 std::string arithmetic_of(const ModelTable& model, bool is_rounded) {
+  const auto format = written_format(model);
+  if (format && is_rounded) {
+    const bool is_single = format->bits == 32;
+    return fmt::format(
+        "In {} of the formulas as they are written, every number and every operation rounded to nearest, "
+        "products and sums fused or not, subnormal results kept or flushed to 0, {} of the library within "
+        "two units in the last place{}",
+        words_of_format(*format),
+        is_single ? "sinf and cosf within 1.5*2^-24 for arguments up to 8, other functions" : "functions",
+        model.angles.empty() ? "" : ", angles wrapped to half a turn at every sample, and begun there");
+  }
   std::string text(is_rounded ? "In IEEE 754 arithmetic" : kExactArithmetic);
   if (!model.compiled) {
     return text;

@@ -20,8 +20,13 @@ namespace veritrack::certificates {
 /// covariance, or, in a proof by gains, in the steady state.
 enum class StartsIn { set, set_with_covariance, steady_state };
 
-/// "In exact arithmetic", and of what where the recursion is that of code; or in that of the program,
-/// rounded.
+/// "single precision (IEEE 754 binary32)".
+[[nodiscard]] inline std::string words_of_format(trackers::code::Format format) {
+  return format.bits == 32 ? "single precision (IEEE 754 binary32)" : "double precision (IEEE 754 binary64)";
+}
+
+/// "In exact arithmetic", and of what where the recursion is that of code; or in that of the program or
+/// of the formulas, rounded.
 [[nodiscard]] std::string arithmetic_of(const ModelTable& model, bool is_rounded);
 
 /// The words of the hypotheses.

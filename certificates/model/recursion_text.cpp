@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <set>
+#include <stdexcept>
 
+#include "certificates/model/identifiers.hpp"
 #include "certificates/model/piecewise_code.hpp"
 #include "certificates/model/program_text.hpp"
 
@@ -34,59 +35,6 @@ const Dialect& dialect_of(CodeLanguage language) {
   return *std::find_if(kDialects.begin(), kDialects.end(),
                        [&](const Dialect& dialect) { return dialect.language == language; });
 }
-
-/// Names that some language keeps for itself, or that the code around the formulas uses, each between spaces.
-constexpr std::string_view kTakenNames =
-    " auto break case char const continue default do double else enum extern float for goto if int "
-    "long register return short signed sizeof static struct switch typedef union unsigned void "
-    "volatile while inline restrict and as assert async await class def del elif except finally from "
-    "global import in is lambda nonlocal not or pass raise try with yield None True False end endif "
-    "function endfunction math state sample next power state_next amplitude frequency tracker_step "
-    "tracker_frequency tracker_start minimum maximum absolute sign_of clamped chosen j0 j1 jn y0 y1 yn "
-    "gamma ";
-
-bool is_taken(const std::string& name) {
-  return kTakenNames.find(" " + name + " ") != std::string_view::npos;
-}
-
-/// Identifiers for the names of a model, each different: `alpha'` becomes alpha_next, `P.x.y` P_x_y.
-class Identifiers {
- public:
-  explicit Identifiers(CodeLanguage language) : language_(language) {}
-
-  [[nodiscard]] std::string of(const std::string& name) {
-    if (language_ == CodeLanguage::formulas) {
-      return name;
-    }
-    const auto known = known_.find(name);
-    if (known != known_.end()) {
-      return known->second;
-    }
-    std::string identifier = name;
-    std::replace(identifier.begin(), identifier.end(), '.', '_');
-    if (identifier.back() == '\'') {
-      identifier.replace(identifier.size() - 1, 1, "_next");
-    }
-    while (is_taken(identifier) || !used_.insert(identifier).second) {
-      identifier += "_";
-    }
-    known_[name] = identifier;
-    return identifier;
-  }
-  [[nodiscard]] std::vector<std::string> of(const std::vector<std::string>& names) {
-    std::vector<std::string> identifiers;
-    identifiers.reserve(names.size());
-    for (const std::string& name : names) {
-      identifiers.push_back(of(name));
-    }
-    return identifiers;
-  }
-
- private:
-  CodeLanguage language_;
-  std::map<std::string, std::string> known_;
-  std::set<std::string> used_;
-};
 
 std::vector<std::string> primed(std::vector<std::string> names) {
   for (std::string& name : names) {
@@ -402,8 +350,9 @@ std::string recursion_text(const Model& model, std::string_view title, CodeLangu
       return as_python(writer, title);
     case CodeLanguage::octave:
       return as_octave(writer, title);
+    default:
+      throw std::logic_error("code in one format of numbers is written by written_code");
   }
-  return {};
 }
 
 }  // namespace veritrack::certificates

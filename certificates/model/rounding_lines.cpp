@@ -73,7 +73,8 @@ listed::Listing in_double(listed::Listing listing, const Line& line) {
 model::code::StepRanges ranges_of(const code::CompiledCode& code, const model::GainProof& proof,
                                   const rigor::Interval& band) {
   const double most = 2.0 * proof.rounding->amplitude;
-  model::code::StepRanges ranges{{}, rigor::Interval::from_bounds(-most, most), code.recursion.bases};
+  model::code::StepRanges ranges{
+      {}, rigor::Interval::from_bounds(-most, most), code.recursion.bases, nullptr, 0.0};
   for (std::size_t i = 0; i < proof.steady.size(); ++i) {
     const model::SteadyValue& each = proof.steady[i];
     const double room = proof.rounding->room[i];

@@ -9,6 +9,7 @@
 #include "checker/code/formula_graph.hpp"
 #include "checker/code/listing.hpp"
 #include "checker/code/listing_match.hpp"
+#include "checker/code/written_formulas.hpp"
 #include "checker/document/code_files.hpp"
 
 namespace veritrack::checker {
@@ -132,7 +133,28 @@ CheckedCode check_code(const Tree& design, Objections& objections) {
   return result;
 }
 
+namespace {
+
+std::string words_of_format(ListedFormat format, bool has_angles) {
+  const bool is_single = format.bits == 32;
+  return std::string("In ") +
+         (is_single ? "single precision (IEEE 754 binary32)" : "double precision (IEEE 754 binary64)") +
+         " of the formulas as they are written, every number and every operation rounded to nearest, "
+         "products "
+         "and sums fused or not, subnormal results kept or flushed to 0, " +
+         (is_single ? "sinf and cosf within 1.5*2^-24 for arguments up to 8, other functions" : "functions") +
+         " of the library within two units in the last place" +
+         (has_angles ? ", angles wrapped to half a turn at every sample, and begun there" : "");
+}
+
+}  // namespace
+
 std::string words_of_arithmetic(const Tree& design, bool is_rounded) {
+  if (const Tree* model = is_rounded ? design.find("model") : nullptr) {
+    if (const auto format = written_format(*model)) {
+      return words_of_format(*format, !model->at("angles").elements().empty());
+    }
+  }
   std::string words = is_rounded ? "In IEEE 754 arithmetic" : "In exact arithmetic";
   const Tree* code = design.find("code");
   if (code == nullptr) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "checker/code/turned_pair.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -44,9 +46,25 @@ class StepErrors {
     for (const int input : listing.samples) {
       known_[input] = {sample, zero};
     }
+    for (const auto& [place, number] : angles.numbers) {
+      known_[place] = {number.exact, std::isfinite(number.value)
+                                         ? abs(Ball(number.value) - number.exact).upper()
+                                         : Ball::everything()};
+    }
+    for (const ListedLimit& limit : angles.limits) {
+      limits_[limit.place] = Ball::hull(at(limit.low).exact.lower(), at(limit.high).exact.upper());
+    }
+    for (auto& [place, known] : known_) {
+      known.exact = limited(place, known.exact);
+    }
   }
 
   [[nodiscard]] std::optional<std::vector<Ball>> all() {
+    for (const auto& [low, high] : angles_->ordered) {
+      if (!certainly_less(at(low).exact + at(low).error, at(high).exact - at(high).error)) {
+        return std::nullopt;
+      }
+    }
     std::vector<Ball> errors;
     for (const ListedState& state : listing_->states) {
       // A start is rounded, too.
@@ -85,7 +103,30 @@ class StepErrors {
     if (!value.exact.finite() || !value.error.finite()) {
       value = {};
     }
+    value.exact = limited(place, value.exact);
     return known_[place] = std::move(value);
+  }
+
+  /// What is known of an exact value of which a limit is shown.
+  [[nodiscard]] Ball limited(int place, const Ball& exact) const {
+    const auto limit = limits_.find(place);
+    if (limit == limits_.end() || !exact.finite() || !limit->second.finite()) {
+      return exact;
+    }
+    const Ball low = max(exact.lower(), limit->second.lower());
+    const Ball high = min(exact.upper(), limit->second.upper());
+    return certainly_at_most(low, high) ? Ball::hull(low, high) : exact;
+  }
+
+  /// The direction of samples that are turned back, away from half a turn, where it would jump.
+  [[nodiscard]] Register turned_pair(const ListedOperation& arc, int turn, const Ball& limit) {
+    const Register& angle = at(turn);
+    const bool is_known = at(arc.operands[0]).error.finite() && at(arc.operands[1]).error.finite();
+    const Ball off = error_of_turned_pair(arc.format, angle.error, error_of_sine(arc.format, angle),
+                                          angles_->least_sample);
+    const bool is_away =
+        certainly_at_most(size_of(limit), Ball(3.1401)) && certainly_less(off, Ball(0x1p-11));
+    return is_known && is_away ? stored(arc.format, limit, off, Ball(4.0)) : Register{};
   }
 
   /// The same, where whole turns do not matter.
@@ -117,7 +158,19 @@ class StepErrors {
     if (now.is("arc")) {  // exact: it is the samples that are off
       return {Ball::within(Ball(listing_->largest_arc)), zero};
     }
+    if (const auto limit = limits_.find(place); limit != limits_.end()) {
+      if (const std::optional<int> turn = angle_of_turned_pair(*listing_, place)) {
+        return turned_pair(now, *turn, limit->second);
+      }
+    }
     return of_two(now, x, y);
+  }
+
+  /// Of the library's sine and cosine.
+  static Ball error_of_sine(ListedFormat format, const Register& x) {
+    const Ball around = x.exact + Ball::within(x.error);
+    const bool is_measured = format.bits == 32 && certainly_at_most(abs(around), Ball(8.0));
+    return is_measured ? Ball(0x1.8p-24) : Ball(4.0) * Ball(half_unit(format));
   }
 
   static Register of_one(const ListedOperation& now, const Register& x) {
@@ -136,9 +189,7 @@ class StepErrors {
       return {abs(x.exact), x.error};
     }
     if (now.is("sin") || now.is("cos")) {
-      const bool is_measured = now.format.bits == 32 && certainly_at_most(abs(around), Ball(8.0));
-      const Ball own = is_measured ? Ball(0x1.8p-24) : four_units * Ball(half_unit(now.format));
-      return {now.is("sin") ? sin(x.exact) : cos(x.exact), (x.error + own).upper()};
+      return {now.is("sin") ? sin(x.exact) : cos(x.exact), (x.error + error_of_sine(now.format, x)).upper()};
     }
     if (now.is("atan")) {
       return stored(now.format, arctangent(x.exact), x.error, four_units);
@@ -209,6 +260,9 @@ class StepErrors {
     if (!certainly_at_most(base.error, slack)) {
       return {};
     }
+    if (wrap.is_of_any_base) {
+      return without_turns(operation(wrap.base).format, base);
+    }
     Ball most = zero;
     for (const ListedShift& shift : wrap.shifts) {
       const Ball turns(std::round(shift.by / 6.283185307179586));
@@ -217,6 +271,24 @@ class StepErrors {
     }
     const Ball size = wrap.is_limited ? Ball(3.1401) : Ball(wrap.largest) + slack;
     return {Ball::within(size), (base.error + most).upper()};
+  }
+
+  /// x - T*rint(x*(1/T)), of at most three turns: T is off, and so are the product, which is at most the sum
+  /// of x and what is left, and the difference.
+  static Register without_turns(ListedFormat format, const Register& base) {
+    const Ball turn = two * pi();
+    const Ball size = (size_of(base.exact) + base.error).upper();
+    constexpr double kMostTurns = 2.9;
+    if (!certainly_at_most(size, Ball(kMostTurns) * turn)) {
+      return {};
+    }
+    // A count next to where it changes is that of an argument a little larger.
+    const double count = std::floor((size / turn + half + Ball(0x1p-20)).upper_double());
+    const double nearest = format.bits == 32 ? static_cast<double>(0x1.921fb6p+2F) : 0x1.921fb54442d18p+2;
+    const Ball constant = Ball(count) * abs(Ball(nearest) - turn);
+    const Ball most = max(size, pi() + Ball(1e-5)).upper();
+    return {Ball::within(pi() + Ball(1e-4)),
+            (base.error + constant + Ball(3.0) * Ball(half_unit(format)) * most).upper()};
   }
 
   /// A choice: the branch that is certain, or both where they are the same number at the turning point.
@@ -378,6 +450,7 @@ class StepErrors {
   const CodeListing* listing_;
   const ListedAngles* angles_;
   std::map<int, Register> known_;
+  std::map<int, Ball> limits_;
 };
 
 }  // namespace

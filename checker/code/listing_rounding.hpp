@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "checker/code/listing.hpp"
@@ -27,12 +28,30 @@ struct ListedWrap {
   double largest = 0.0;             ///< of the sizes of the base and of the register, rad
   std::vector<ListedShift> shifts;  ///< the ways to it
   bool is_limited = false;          ///< the exact value is shown to be within 3.14 of 0
+  bool is_of_any_base = false;      ///< x - T*rint(x*(1/T)): the ways follow from the size of the base
 };
 
-/// The ranges that wraps keep angles in.
+/// A number that a program is given in its format.
+struct ListedNumber {
+  Ball exact;
+  double value = 0.0;
+};
+
+/// A register whose exact value is shown to stay between two others, which are made of numbers.
+struct ListedLimit {
+  int place = -1;
+  int low = -1;
+  int high = -1;
+};
+
+/// The ranges that wraps keep angles in; and what else is known of formulas that are written.
 struct ListedAngles {
-  std::map<int, ListedWrap> wraps;  ///< by register
-  std::map<int, Ball> states;       ///< by the register of an angle
+  std::map<int, ListedWrap> wraps;      ///< by register
+  std::map<int, Ball> states;           ///< by the register of an angle
+  std::map<int, ListedNumber> numbers;  ///< by register, which is an input
+  std::vector<ListedLimit> limits;
+  std::vector<std::pair<int, int>> ordered;  ///< limits of clamps: the first has to be less
+  Ball least_sample;                         ///< the vector of two samples is at least as long
 };
 
 /// At least |computed - exact| of each next state, of an angle modulo turns; then of the frequency.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "checker/code/code_certificate.hpp"
+#include "checker/code/written_formulas.hpp"
 #include "checker/model/gain/gain_claims.hpp"
 #include "checker/model/gain/gain_evidence.hpp"
 #include "checker/model/gain/phase_evidence.hpp"
@@ -225,6 +226,14 @@ RoundingOfStep rounding_of(const CheckedCode& code) {
   };
 }
 
+RoundingOfStep rounding_of(const Tree& model, ListedFormat format, const Ball& amplitude) {
+  WrittenFormulas written = written_formulas(model, format);
+  written.known.least_sample = ((one - Ball(kMostRoundedNoise)) * amplitude).lower();
+  return [written](const std::vector<Ball>& states, const Ball& sample) {
+    return listing_rounding(written.listing, written.known, states, sample);
+  };
+}
+
 void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
   const Tree& tree = certificate.at("design");
   Objections objections;
@@ -248,6 +257,13 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
     if (!objections.empty()) {
       return;  // nor of another one than the code's
     }
+  }
+  if (const auto format = written_format(tree.at("model"))) {
+    if (tree.find("code") != nullptr || recursion.filtered() > 0) {
+      result.parts.push_back({"arithmetic", {"only formulas that are written have an arithmetic"}});
+      return;
+    }
+    rounding = rounding_of(tree.at("model"), *format, design.least_amplitude);
   }
   for (const Tree& derivation : certificate.at("derivations").elements()) {
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});

@@ -71,6 +71,8 @@ model-gains-observer  a vector of states whose length matters, on a band through
 model-gains-control   samples times a state, with amplitudes in a range
 From tests/certificates/model-code.toml and model-code.c, as it is:
 model-code        a loop that is a function in C, with its listing
+From tests/certificates/model-arithmetic.toml, as it is:
+model-arithmetic  a loop of formulas in single precision
 From tests/certificates/model-gains-limits.toml, model-gains-signs.toml and model-kinks.toml, as they are:
 model-gains-limits  a loop with a clamp that acts and one that does not
 model-gains-signs   a loop whose detector has signs, conditions and absolute values
@@ -516,6 +518,7 @@ KINDS = {
     "model-gains-linear": lambda certificate: None,
     "model-gains-signs": lambda certificate: None,
     "model-code": lambda certificate: None,
+    "model-arithmetic": lambda certificate: None,
     "model-kinks": lambda certificate: None,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "analysis/model/code/turned_sample.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::model::code {
@@ -51,10 +52,20 @@ class Evaluation {
     for (const int sample : listing.samples) {
       known_[sample] = {ranges.sample, 0.0};
     }
+    if (ranges.facts != nullptr) {
+      know(*ranges.facts);
+    }
   }
 
   [[nodiscard]] std::optional<StepRounding> all() {
     StepRounding result;
+    if (ranges_->facts != nullptr) {
+      for (const auto& [low, high] : ranges_->facts->ordered) {
+        if (!rigor::certainly_less(around(value(low)), around(value(high)))) {
+          return std::nullopt;
+        }
+      }
+    }
     for (const trackers::code::State& state : listing_->states) {
       const double error =
           turns_.is_wrapped(state.next) ? wrapped(state.next).error : value(state.next).error;
@@ -77,6 +88,33 @@ class Evaluation {
     return listing_->instructions[static_cast<std::size_t>(value)];
   }
 
+  void know(const WrittenFacts& facts) {
+    for (const auto& [place, number] : facts.numbers) {
+      known_[place] = {number.exact, std::isfinite(number.value)
+                                         ? rigor::magnitude(Interval(number.value) - number.exact)
+                                         : kInfinity};
+    }
+    // Their limits are made of numbers, and need no others.
+    for (const RegisterLimit& limit : facts.limits) {
+      limits_[limit.value] =
+          Interval::from_bounds(value(limit.low).exact.lower(), value(limit.high).exact.upper());
+    }
+    for (auto& [place, known] : known_) {
+      known.exact = limited(place, known.exact);
+    }
+  }
+
+  /// The exact value, where a limit is proved of it.
+  [[nodiscard]] Interval limited(int place, const Interval& exact) const {
+    const auto limit = limits_.find(place);
+    if (limit == limits_.end()) {
+      return exact;
+    }
+    const double low = std::max(exact.lower(), limit->second.lower());
+    const double high = std::min(exact.upper(), limit->second.upper());
+    return low <= high ? Interval::from_bounds(low, high) : exact;
+  }
+
   /// The result of an operation that is off by `error` and is then rounded to the format, by `units` of its
   /// roundoff.
   [[nodiscard]] static Computed rounded(Format format, const Interval& exact, double error,
@@ -95,6 +133,7 @@ class Evaluation {
       return found->second;
     }
     Computed result = operation(number);
+    result.exact = limited(number, result.exact);
     if (!(result.error >= 0.0) || !rigor::is_finite(result.exact)) {
       result.error = kInfinity;
     }
@@ -193,16 +232,20 @@ class Evaluation {
   /// A wrapped value: its base, less whole turns.
   [[nodiscard]] Computed wrapped(int number) {
     const int base = turns_.without_turns(number);
-    const auto range = ranges_->bases.find(base);
-    const auto shifts =
-        range == ranges_->bases.end() ? std::nullopt : turns_.shifts(number, base, range->second);
-    const auto reached = shifts ? turns_.range(number, base, range->second) : std::nullopt;
     const Computed before = value(base);
+    const auto known = ranges_->bases.find(base);
+    if (known == ranges_->bases.end() && ranges_->facts == nullptr) {
+      return {};
+    }
+    const Range range =
+        known != ranges_->bases.end() ? known->second : Range{before.exact.lower(), before.exact.upper()};
+    const auto shifts = turns_.shifts(number, base, range);
+    const auto reached = shifts ? turns_.range(number, base, range) : std::nullopt;
     // Ranges of bases hold with that slack.
     if (!reached || !(before.error <= kWrapSlack)) {
       return {};
     }
-    const double most = rigor::add_up(std::max({std::fabs(range->second.low), std::fabs(range->second.high),
+    const double most = rigor::add_up(std::max({std::fabs(range.low), std::fabs(range.high),
                                                 std::fabs(reached->low), std::fabs(reached->high)}),
                                       kWrapSlack);
     double error = 0.0;
@@ -390,6 +433,13 @@ class Evaluation {
     return std::nullopt;
   }
 
+  /// Of the sine and the cosine of the library.
+  [[nodiscard]] static double error_of_sine(Format format, const Interval& argument) {
+    // Its bound was measured there.
+    const bool is_measured = format.bits == 32 && rigor::magnitude(argument) <= 8.0;
+    return is_measured ? 0x1.8p-24 : 4.0 * unit_roundoff(format);
+  }
+
   [[nodiscard]] Computed function(const Instruction& instruction) {
     constexpr double kTwoPlaces = 4.0;  // units of roundoff in two units in the last place
     const Format format = instruction.format;
@@ -399,10 +449,8 @@ class Evaluation {
       case Operation::sin:
       case Operation::cos: {
         const auto [sine, cosine] = rigor::sin_cos(x.exact);
-        const double most = rigor::magnitude(whole);
-        // Its bound was measured there.
-        const double absolute = format.bits == 32 && most <= 8.0 ? 0x1.8p-24 : 4.0 * unit_roundoff(format);
-        return {instruction.operation == Operation::sin ? sine : cosine, rigor::add_up(x.error, absolute)};
+        return {instruction.operation == Operation::sin ? sine : cosine,
+                rigor::add_up(x.error, error_of_sine(format, whole))};
       }
       case Operation::sqrt: {
         const double least = rigor::sub_down(x.exact.lower(), x.error);
@@ -447,6 +495,19 @@ class Evaluation {
     const bool is_near = &instruction == &at(std::max(listing_->near_arc_tangent.value, 0));
     const double most = std::max(rigor::pi().upper(), is_near ? listing_->near_arc_tangent.largest : 0.0);
     const Interval half_turns = Interval::from_bounds(-most, most);
+    const int place = static_cast<int>(&instruction - listing_->instructions.data());
+    const auto limit = limits_.find(place);
+    const auto turn = limit != limits_.end() && std::isfinite(y.error) && std::isfinite(x.error)
+                          ? turned_back_by(*listing_, instruction)
+                          : std::nullopt;
+    // Away from half a turn, where it jumps.
+    if (turn && rigor::magnitude(limit->second) <= kMostOfWrapped) {
+      const Computed t = value(*turn);
+      const double error = error_of_turned_sample(
+          instruction.format, t.error, error_of_sine(instruction.format, around(t)), ranges_->least_sample);
+      constexpr double kNearest = 1e-3;
+      return error < kNearest ? rounded(instruction.format, limit->second, error, kTwoPlaces) : Computed{};
+    }
     if (y.error == 0.0 && x.error == 0.0) {
       return rounded(instruction.format, half_turns, 0.0, kTwoPlaces);
     }
@@ -467,6 +528,7 @@ class Evaluation {
   const StepRanges* ranges_;
   Turns turns_;
   std::map<int, Computed> known_;
+  std::map<int, Interval> limits_;
   int without_bound_ = -1;
 };
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "analysis/model/code/turns.hpp"
@@ -20,6 +21,27 @@ struct StepRounding {
   double frequency = 0.0;  ///< rad/sample
 };
 
+/// A number that a program is given in its format.
+struct RoundedNumber {
+  rigor::Interval exact;
+  double value = 0.0;
+};
+
+/// A register whose exact value is proved to stay between two others, which are made of numbers.
+struct RegisterLimit {
+  int value = -1;
+  int low = -1;
+  int high = -1;
+};
+
+/// What is known of the listing of a recursion that is written as formulas.
+struct WrittenFacts {
+  std::map<int, RoundedNumber> numbers;  ///< by register, which is an input
+  std::vector<RegisterLimit> limits;
+  /// Limits of clamps, which have to be in this order: then a clamp is a maximum and a minimum.
+  std::vector<std::pair<int, int>> ordered;
+};
+
 /// The ranges of what goes into a step.
 struct StepRanges {
   std::vector<rigor::Interval> states;
@@ -27,6 +49,8 @@ struct StepRanges {
   /// Of the registers that are wrapped, by what is wrapped; each is certain where steps of angles are below
   /// half a turn.
   std::map<int, Range> bases;
+  const WrittenFacts* facts = nullptr;  ///< or none
+  double least_sample = 0.0;            ///< at most the length of the vector of two samples
 };
 
 /// Differences of angles that are used as numbers are assumed to stay within this, rad: then a wrap does not
@@ -35,7 +59,8 @@ inline constexpr double kMostOfWrapped = 3.14;
 
 /// For operations of IEEE 754, each rounded to nearest, products and sums fused or not, results below the
 /// normal range kept or flushed to 0; sine and cosine in single precision within 1.5 * 2^-24, other functions
-/// of the library within two units in the last place. Empty where no bound is known: an operation without
+/// of the library within two units in the last place. What is wrapped in a written recursion and has no entry
+/// among the bases has the range of its value. Empty where no bound is known: an operation without
 /// one, a branch that is not decided and jumps, a division by what may be 0, a result that may overflow.
 /// `without` gets the first operation that has none. Needs the upward rounding mode.
 [[nodiscard]] std::optional<StepRounding> step_rounding(const trackers::code::Listing& listing,

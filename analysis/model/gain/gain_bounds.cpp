@@ -244,7 +244,8 @@ double GainBounds::residual_error() const {
 
 std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance,
                                              const search::Deadline& deadline) const {
-  const bool is_covered = !network_.has_ripples || !(disturbance.slew > 0.0);
+  const bool is_covered =
+      (!network_.has_ripples || !(disturbance.slew > 0.0)) && disturbance.noise <= network_.most_noise;
   const std::optional<std::vector<Numbers>> sequence =
       is_covered ? this->sequence(disturbance, deadline) : std::nullopt;
   if (!sequence) {

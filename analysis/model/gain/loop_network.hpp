@@ -2,6 +2,7 @@
 // (docs/gain-proof.md, section 3).
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -64,6 +65,7 @@ struct LoopNetwork {
   bool has_ripples = false;              ///< then bounds are for a constant frequency
   std::vector<std::size_t> state_forms;  ///< with rounding: the forms that are the states, in their order
   double rounding_of_frequency = 0.0;    ///< what the reported frequency is off, rad/sample
+  double most_noise = INFINITY;          ///< with rounding: no more is covered
   /// The one state of which the frequency error is a multiple, and the factor; or none.
   std::optional<std::pair<std::size_t, double>> frequency_state;
 };

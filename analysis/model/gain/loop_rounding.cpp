@@ -21,7 +21,12 @@ LoopRounding rounding_within(std::vector<double> room, const RoundingOfStep& rou
   }
   const double most = 2.0 * tracker.amplitude.upper();
   std::vector<double> found = rounding(states, Interval::from_bounds(-most, most));
-  LoopRounding result{std::move(room), found, found.back(), 0.0, tracker.amplitude.upper()};
+  LoopRounding result{std::move(room),
+                      found,
+                      found.back(),
+                      0.0,
+                      tracker.amplitude.upper(),
+                      rigor::mul_down(kMostNoise, tracker.amplitude.lower())};
   result.next.pop_back();
   return result;
 }
@@ -84,6 +89,7 @@ void add_rounding(LoopNetwork& network, const LoopRounding& rounding) {
   network.direct.push_back(direct);
   network.ripple.push_back(ripple);
   network.rounding_of_frequency = rounding.frequency;
+  network.most_noise = rounding.most_noise;
 }
 
 }  // namespace veritrack::model

@@ -16,6 +16,7 @@ struct LoopRounding {
   double frequency = 0.0;    ///< the same of the reported frequency, rad/sample
   double turned = 0.0;       ///< the angle of the samples is off by up to this, rad
   double amplitude = 0.0;    ///< at most; what turns the samples counts as noise
+  double most_noise = 0.0;   ///< signal units
 };
 
 /// The rounding of a step while no state is further than `room` from the steady state, at the frequencies of

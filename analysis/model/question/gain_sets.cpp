@@ -202,7 +202,7 @@ LoopRounding rounding_of(const SetQuestion& question, const FoundLoop& found, co
   }
   LoopNetwork network = gains.network();
   add_rounding(network, {std::vector<double>(n, INFINITY), std::vector<double>(n, 0.0), 0.0, question.turned,
-                         question.tracker.amplitude.upper()});
+                         question.tracker.amplitude.upper(), INFINITY});
   const std::optional<GainBounds> probe =
       GainBounds::make(std::move(network), gains.samples(), gains.blocks());
   if (!probe) {

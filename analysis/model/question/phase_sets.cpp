@@ -184,7 +184,8 @@ class PhaseSets {
     const PhaseGains& probe = loop_->probe();
     constexpr int kSteps = 7;
     if (question_->largest_noise) {
-      const double most = question_->tracker.amplitude.lower();
+      const double amplitude = question_->tracker.amplitude.lower();
+      const double most = question_->rounding ? rigor::mul_down(kMostNoise, amplitude) : amplitude;
       probed_noise_ = largest_with(
           most,
           [&](double noise) {
@@ -319,6 +320,9 @@ class PhaseSets {
 /// The same of the program that runs. Throws NoRounding.
 PhaseProof rounded_proof(const SetQuestion& question, PhaseLoop& loop, double half_distance,
                          KnownLimits known) {
+  if (!(question.noise <= rigor::mul_down(kMostNoise, question.tracker.amplitude.lower()))) {
+    throw NoRounding("the noise may be as large as the signal");
+  }
   PhaseSets exact(question, loop, half_distance, known);
   if (question.turned > 0.0) {
     throw NoRounding("it has an arc tangent of its own");

@@ -20,6 +20,10 @@ class NoRounding : public std::runtime_error {
 using RoundingOfStep = std::function<std::vector<double>(const std::vector<rigor::Interval>& states,
                                                          const rigor::Interval& sample)>;
 
+/// The noise of a program that rounds is at most this share of the amplitude: a vector of two samples has a
+/// direction in its format.
+inline constexpr double kMostNoise = 1.0 - 0x1p-10;
+
 /// The rounding of a program while its states are near a steady state.
 struct ProgramRounding {
   std::vector<double> room;  ///< by state: how far it may be from the steady state; infinite for angles

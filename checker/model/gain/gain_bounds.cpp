@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "checker/model/gain/gain_rounding.hpp"
 #include "checker/model/gain/loop_bounds.hpp"
 
 namespace veritrack::checker {
@@ -192,7 +193,9 @@ std::optional<GainErrors> GainBounds::errors(const Ball& noise, const Ball& slew
                                              const std::vector<Ball>& start) const {
   if (!is_certain() || start.size() != network_->states() || !certainly_not_negative(noise) ||
       !certainly_not_negative(slew) || (!network_->ripples.empty() && !certainly_equal(slew, zero)) ||
-      !certainly_less(network_->with_turns(noise), network_->least_amplitude)) {
+      !certainly_less(network_->with_turns(noise), network_->least_amplitude) ||
+      (network_->is_rounded &&
+       !certainly_at_most(noise, Ball(kMostRoundedNoise) * network_->least_amplitude))) {
     return std::nullopt;
   }
   const std::size_t blocks = kernels_.blocks();

@@ -21,6 +21,10 @@ struct GainRounding {
 using RoundingOfStep =
     std::function<std::optional<std::vector<Ball>>(const std::vector<Ball>& states, const Ball& sample)>;
 
+/// Noise is at most this share of the amplitude where a program rounds: a vector of two samples has a
+/// direction in its format.
+constexpr double kMostRoundedNoise = 1.0 - 0x1p-10;
+
 /// The values of each state in its room at the frequencies of a band; of an angle nothing that is finite.
 std::vector<Ball> states_within(const std::vector<Ball>& room, const std::vector<SteadyState>& steady,
                                 const std::vector<bool>& is_angle, const Ball& lowest, const Ball& highest);

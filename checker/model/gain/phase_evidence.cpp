@@ -139,7 +139,7 @@ std::vector<Ball> factors_of_frequency(const ModelRecursion& recursion) {
 /// Throws NotCovered.
 RoundedProgram read_program(const Tree& list, const TrackedModel& model, const RoundingOfStep& rounding) {
   const std::vector<bool>& is_angle = model.recursion->is_angle();
-  RoundedProgram program{{}, model.amplitude.lower_double(), rounding};
+  RoundedProgram program{{}, (Ball(kMostRoundedNoise) * model.amplitude).lower_double(), rounding};
   for (const Tree& entry : list.elements()) {
     program.room.push_back(double_from(entry));
   }

@@ -63,8 +63,6 @@ class ListingBuilder {
   }
 
   Listing listing;
-
- private:
   int put(const Instruction& instruction) {
     listing.instructions.push_back(instruction);
     return static_cast<int>(listing.instructions.size()) - 1;

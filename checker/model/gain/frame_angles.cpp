@@ -98,12 +98,40 @@ int LinearFrame::quarter_turns(int count) {
 }
 
 int LinearFrame::noise_angle() {
+  if (has_one_noise_) {
+    return made("angle of the noise", [this] {
+      // Im log(1 + z), z = n/A: its series after Im z is below that of -log(1 - |z|) after |z|.
+      const Ball least = least_;
+      const std::size_t rest =
+          add_input({[least](const Ball& noise) {
+                       const Ball z = noise / least;
+                       return certainly_less(z, one) ? -log(one - z) - z : Ball::everything();
+                     },
+                     {},
+                     nullptr});
+      LinearValue value;
+      add_deviations(value, at(noise_part(1)), one / Ball::hull(least_, largest_));
+      value.deviations[rest] = {one, zero};
+      return value;
+    });
+  }
   return made("noise angle", [this] {
     const Ball least = least_;
     const std::size_t source =
         add_input({[least](const Ball& noise) { return arcsine(noise / least); }, {}, nullptr});
     LinearValue value;
     value.deviations[source] = {one, zero};
+    return value;
+  });
+}
+
+int LinearFrame::noise_part(std::size_t part) {
+  return made("noise part " + std::to_string(part), [&] {
+    const std::size_t source = named_input("the noise", [] {
+      return FrameInput{[](const Ball& noise) { return noise; }, {}, nullptr};
+    });
+    LinearValue value;
+    value.deviations[source] = part == 0 ? InputFactor{one, zero} : InputFactor{zero, one};
     return value;
   });
 }

@@ -66,13 +66,14 @@ int LinearFrame::length(int y, int x) {
   return made("length " + std::to_string(y) + " " + std::to_string(x), [&] {
     const LinearValue real = at(x);
     const Ball of_x = base(real);
-    const Ball whole = sqrt(square(base(at(y))) + square(of_x));
+    const Ball squared = square(base(at(y)));
+    const Ball whole = sqrt(squared + square(of_x));
     if (!certainly_positive(of_x)) {
       throw NotCovered("a vector that may be turned back");
     }
     const auto [u, v] = relative_to_direction(y, x);
     LinearValue result;
-    result.constant = real.constant + (whole - of_x);
+    result.constant = real.constant + squared / (whole + of_x);  // L - x, whose widths are not added
     result.per_frequency = real.per_frequency;
     add_deviations(result, at(u), whole);
     if (!at(u).deviations.empty() || !at(v).deviations.empty()) {

@@ -10,11 +10,13 @@
 #include "analysis/model/gain/linear_loop.hpp"
 #include "analysis/model/gain/loop_detector.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/rounding.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/loop_stability.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_lock.hpp"
 #include "certificates/model/model_sets.hpp"
+#include "certificates/model/operation_words.hpp"
 #include "certificates/model/rounding_lines.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/linear_loop_table.hpp"
@@ -162,6 +164,28 @@ std::string attack_text(const ModelSets& sets, const Model& model, const ModelAs
       reached / proof.assumed->long_run);
 }
 
+/// The clamps that act where noise is a little more than what is proved to be tolerated.
+std::string clamp_text(const ModelSets& sets, const Model& model, const ModelAssumptions& assume) {
+  constexpr double kMore = 1.02;
+  const model::GainProof& proof = *sets.gains;
+  const std::vector<std::string> clamps = clamps_of(model);
+  if (!proof.gains || clamps.empty()) {
+    return "";
+  }
+  const rigor::UpwardRounding upward;
+  const double tolerated = sets.noise && sets.noise->is_proved() ? sets.noise->tubes.noise : 0.0;
+  const double beyond = std::max(kMore * tolerated, proof.assumed ? 0.0 : assume.noise.value.upper());
+  if (proof.gains->acts("a clamp", tolerated) || !proof.gains->acts("a clamp", beyond)) {
+    return "";
+  }
+  return fmt::format(
+      "More noise makes a clamp act: {}{}. To first order, errors reach its limits there, and the bounds "
+      "close beyond them only if what the clamp takes away comes back smaller: not for a clamp on the whole "
+      "phase error of a loop with an integrator (`docs/gain-proof.md`, section 2). Wider limits help, if "
+      "those of your program are wider.\n\n",
+      clamps.size() == 1 ? "" : "one of ", markdown::escaped(fmt::format("{}", fmt::join(clamps, ", "))));
+}
+
 /// Why the most that is tolerated is less than what is assumed and proved.
 std::string without_lock(const ModelSets& sets) {
   const std::optional<ProvedSet>& set = sets.assumed;
@@ -228,6 +252,7 @@ std::string model_gains_section(const Certificate& certificate, const Model& mod
   }
   text += gain_limits_table(sets.noise ? &*sets.noise : nullptr, sets.slew ? &*sets.slew : nullptr,
                             sets.starts, units);
+  text += clamp_text(sets, model, assume);
   text += without_lock(sets);
   if (proof.gains) {
     text +=

@@ -236,6 +236,9 @@ Json gains_json(const model::GainProof& proof) {
   if (proof.gains) {
     json["horizon"] = proof.gains->samples();
     json["blocks"] = proof.gains->blocks();
+    if (proof.gains->network().shares_noise) {
+      json["one_noise"] = true;
+    }
     if (proof.rounding) {
       json["rounding"] = room_json(proof.rounding->room);
     }

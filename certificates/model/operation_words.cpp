@@ -219,4 +219,27 @@ std::vector<std::string> objections_to_operations(const Model& model) {
   return objections;
 }
 
+std::vector<std::string> clamps_of(const Model& model) {
+  std::vector<std::string> clamps;
+  const std::vector<std::string> inputs = inputs_of(model, true);
+  const std::vector<double> lengths = lengths_of(model.step);
+  const auto limit = [&](int number) {
+    const std::string formula = shown(model.step, inputs, lengths, number);
+    const auto place = static_cast<std::size_t>(number);
+    const bool is_parameter = place < model.constants.size() && !model.constants[place].is_literal;
+    return is_parameter ? fmt::format("{} = {:.6g}", formula, rigor::midpoint(model.constants[place].value))
+                        : formula;
+  };
+  int place = model.step.program.inputs();
+  for (const trackers::Instruction& made : model.step.program.instructions()) {
+    if (made.operation == Operation::clamp) {
+      clamps.push_back(fmt::format("clamp({}, {}, {}) (line {})",
+                                   shown(model.step, inputs, lengths, made.first), limit(made.second),
+                                   limit(made.third), position_of(model.step, place, {}).line));
+    }
+    ++place;
+  }
+  return clamps;
+}
+
 }  // namespace veritrack::certificates

@@ -17,4 +17,7 @@ void require_whole_turns(const Model& model, const ModelTable& table, const std:
 /// vanish".
 [[nodiscard]] std::vector<std::string> objections_to_operations(const Model& model);
 
+/// The clamps of the step: "clamp(e, -0.3, 0.3) (line 14)", with the value of a limit that is a parameter.
+[[nodiscard]] std::vector<std::string> clamps_of(const Model& model);
+
 }  // namespace veritrack::certificates

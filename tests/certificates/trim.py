@@ -73,6 +73,8 @@ From tests/certificates/model-code.toml and model-code.c, as it is:
 model-code        a loop that is a function in C, with its listing
 From tests/certificates/model-arithmetic.toml, as it is:
 model-arithmetic  a loop of formulas in single precision
+From tests/certificates/model-gains-products.toml, as it is:
+model-gains-products  a loop in which noise that two samples have in common cancels
 From tests/certificates/model-gains-limits.toml, model-gains-signs.toml and model-kinks.toml, as they are:
 model-gains-limits  a loop with a clamp that acts and one that does not
 model-gains-signs   a loop whose detector has signs, conditions and absolute values

@@ -42,7 +42,9 @@ bool FrameRules::find_pattern(Frame& frame, const Waves& y, const Waves& x, Wave
 FrameLine FrameRules::whole_angle(Frame& frame, const WavePattern& pattern) {
   const double sign = pattern.sign;
   FrameLine angle = scaled(phase_of(frame, pattern.monomial), Interval(sign), sign);
-  if (pattern.monomial.order != 0 && frame.channels_ == 2) {
+  if (pattern.monomial.order != 0 && frame.shares_noise_) {
+    add_shared_angle(frame, angle, sign * pattern.monomial.order);
+  } else if (pattern.monomial.order != 0 && frame.channels_ == 2) {
     if (frame.angle_input_ < 0) {
       FrameInput input;
       input.at_noise = [amplitude = frame.amplitude_](double noise) {

@@ -83,6 +83,7 @@ struct FrameRules {
                             std::function<double(const std::vector<double>& bounds)> size);
 
   // Waves and noise (frame_waves.cpp).
+  static rigor::Interval whole_power(const rigor::Interval& x, int exponent);
   /// Whether all lengths in it are above 0, which is a limit from now on.
   static bool keeps_positive(Frame& frame, const Monomial& monomial);
   static FrameLine scaled_part(Frame& frame, const Monomial& monomial, int part);
@@ -92,6 +93,15 @@ struct FrameRules {
   static FrameLine phase_of(Frame& frame, const Monomial& monomial);
   static int disc(Frame& frame, const Monomial& monomial);
   static int ripple(Frame& frame, const Monomial& monomial, const FrameLine& phase);
+
+  // Noise that is one input (frame_shared_noise.cpp).
+  /// The first component of the noise of a sample as the signal's phase sees it.
+  static int shared_noise(Frame& frame);
+  /// What noise adds to Re M or Im M.
+  static void add_shared_noise(Frame& frame, FrameLine& line, const Monomial& monomial,
+                               const FrameLine& phase, int part);
+  /// `multiple` times the angle that noise adds to that of the sample.
+  static void add_shared_angle(Frame& frame, FrameLine& line, double multiple);
 
   // Products and functions (frame_functions.cpp).
   static FrameLine product_line(Frame& frame, const FrameLine& a, const FrameLine& b, bool is_square);

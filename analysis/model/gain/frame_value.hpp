@@ -141,9 +141,15 @@ struct FrameRipple {
 /// The network that arises while formulas are run over values. Needs the upward rounding mode.
 class Frame {
  public:
-  /// Amplitudes of the samples, signal units; `band`, rad/sample; one or two channels.
-  Frame(const rigor::Interval& amplitude, const rigor::Interval& band, int states, int channels = 2)
-      : amplitude_(amplitude), band_(band), states_(states), channels_(channels) {}
+  /// Amplitudes of the samples, signal units; `band`, rad/sample; one or two channels. With `shares_noise`,
+  /// two channels, the noise of a sample is one input wherever it comes in; else each wave has its own.
+  Frame(const rigor::Interval& amplitude, const rigor::Interval& band, int states, int channels = 2,
+        bool shares_noise = false)
+      : amplitude_(amplitude),
+        band_(band),
+        states_(states),
+        channels_(channels),
+        shares_noise_(shares_noise && channels == 2) {}
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 
@@ -186,6 +192,7 @@ class Frame {
   rigor::Interval amplitude_, band_;
   int states_;
   int channels_;
+  bool shares_noise_;
   int components_ = 0;
   int names_ = 0;
   std::map<std::tuple<int, int, int>, int> name_of_;     // of an operation on names
@@ -199,6 +206,8 @@ class Frame {
   std::map<Monomial, int> phase_forms_;                  // of the angles of monomials
   std::map<std::pair<Monomial, int>, FrameLine> parts_;  // Re M and Im M
   int angle_input_ = -1;                                 // of the angle that noise adds, or -1
+  int noise_input_ = -1;                                 // of the noise in the frame of the signal, or -1
+  int noise_form_ = -1;
   std::vector<FrameInput> inputs_;
   std::vector<FrameLine> forms_;
   std::vector<int> angle_forms_;

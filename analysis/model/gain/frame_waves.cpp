@@ -12,29 +12,22 @@ using rigor::Interval;
 
 namespace {
 
-Interval whole_power(const Interval& x, int exponent) {
-  Interval result(1.0);
-  for (int i = 0; i < std::abs(exponent); ++i) {
-    result *= x;
-  }
-  return exponent < 0 ? Interval(1.0) / result : result;
-}
-
 /// The radius of the disc about A^s that holds |y|^s e^(i m (arg y - phase)).
 double disc_radius(const Interval& amplitude, int magnitude, int order, double noise) {
   const Interval v(noise);
   if (magnitude > 0 && magnitude == std::abs(order)) {
     const Interval largest(amplitude.upper());
-    return (whole_power(largest + v, magnitude) - whole_power(largest, magnitude)).upper();
+    return (FrameRules::whole_power(largest + v, magnitude) - FrameRules::whole_power(largest, magnitude))
+        .upper();
   }
   if (!(noise < amplitude.lower())) {
     return INFINITY;
   }
   // Differences of powers grow with the amplitude, or fall where the power is negative.
   const Interval worst(magnitude >= 0 ? amplitude.upper() : amplitude.lower());
-  const Interval power = whole_power(worst, magnitude);
-  const Interval change =
-      hull(whole_power(worst + v, magnitude) - power, whole_power(worst - v, magnitude) - power);
+  const Interval power = FrameRules::whole_power(worst, magnitude);
+  const Interval change = hull(FrameRules::whole_power(worst + v, magnitude) - power,
+                               FrameRules::whole_power(worst - v, magnitude) - power);
   const Interval angle =
       Interval(static_cast<double>(std::abs(order))) * rigor::asin(v / Interval(amplitude.lower()));
   const double turned = std::min(angle.upper(), rigor::pi().upper());
@@ -57,6 +50,14 @@ double wave_remainder(const Interval& c0, const Interval& c1, double bound) {
 }
 
 }  // namespace
+
+Interval FrameRules::whole_power(const Interval& x, int exponent) {
+  Interval result(1.0);
+  for (int i = 0; i < std::abs(exponent); ++i) {
+    result *= x;
+  }
+  return exponent < 0 ? Interval(1.0) / result : result;
+}
 
 /// The angle of a monomial without that of noise: sum of k L + order (phi + omega).
 FrameLine FrameRules::phase_of(Frame& frame, const Monomial& monomial) {
@@ -142,7 +143,11 @@ FrameLine FrameRules::part_of_wave(Frame& frame, const Monomial& monomial, int p
     return frame.parts_[key] = std::move(line);
   }
   if (frame.channels_ == 2 && (monomial.magnitude != 0 || monomial.order != 0)) {
-    add_component(line, disc(frame, monomial) + part, Interval(1.0));
+    if (frame.shares_noise_) {
+      add_shared_noise(frame, line, monomial, phase, part);
+    } else {
+      add_component(line, disc(frame, monomial) + part, Interval(1.0));
+    }
   }
   const Interval size = whole_power(frame.amplitude_, monomial.magnitude);
   const Interval base = base_of(phase, frame.band_);

@@ -242,6 +242,25 @@ double GainBounds::residual_error() const {
   return sum;
 }
 
+bool GainBounds::acts(std::string_view operation, double noise) const {
+  const LoopDisturbance disturbance{noise, 0.0, {}};
+  Numbers bounds = network_.ripple;
+  const Numbers given = sizes(disturbance, Numbers(bounds.size(), 0.0));
+  for (std::size_t f = 0; f < bounds.size(); ++f) {
+    for (std::size_t l = 0; l < given.size(); ++l) {
+      const bool is_remainder = network_.inputs[l].cause == Cause::remainder;
+      bounds[f] = is_remainder ? bounds[f] : plus(bounds[f], total_[f][l], given[l]);
+    }
+  }
+  const Numbers size = sizes(disturbance, bounds);
+  for (std::size_t l = 0; l < size.size(); ++l) {
+    if (network_.inputs[l].what == operation && size[l] > 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::optional<LoopBounds> GainBounds::bounds(const LoopDisturbance& disturbance,
                                              const search::Deadline& deadline) const {
   const bool is_covered =

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "analysis/model/gain/loop_network.hpp"
@@ -53,6 +54,9 @@ class GainBounds {
   [[nodiscard]] double linear_error(double noise, double slew) const;
   /// The frequency error from the listed steady state, which is only approximate.
   [[nodiscard]] double residual_error() const;
+
+  /// Whether a remainder of this operation is above 0 where errors are what noise makes them to first order.
+  [[nodiscard]] bool acts(std::string_view operation, double noise) const;
 
   /// Empty where no bound closes, or none has closed at the deadline.
   [[nodiscard]] std::optional<LoopBounds> bounds(const LoopDisturbance& disturbance,

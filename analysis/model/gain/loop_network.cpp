@@ -50,11 +50,15 @@ namespace {
 
 class Assembly {
  public:
-  Assembly(const TrackerModel& tracker, const std::vector<SteadyValue>& steady, const Interval& band)
+  Assembly(const TrackerModel& tracker, const std::vector<SteadyValue>& steady, const Interval& band,
+           bool shares_noise)
       : tracker_(&tracker),
         steady_(&steady),
         states_(steady.size()),
-        frame_(tracker.amplitude, band, static_cast<int>(steady.size()), tracker.recursion->samples) {}
+        frame_(tracker.amplitude, band, static_cast<int>(steady.size()), tracker.recursion->samples,
+               shares_noise) {
+    network_.shares_noise = shares_noise;
+  }
 
   /// Not evidence.
   [[nodiscard]] StepResidual residual() {
@@ -381,16 +385,16 @@ class Assembly {
 }  // namespace
 
 LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
-                         const Interval& band) {
+                         const Interval& band, bool shares_noise) {
   if (steady.size() != tracker.recursion->is_angle.size()) {
     throw NoFrame("another number of states");
   }
-  return Assembly(tracker, steady, band).make();
+  return Assembly(tracker, steady, band, shares_noise).make();
 }
 
 StepResidual step_residual(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
                            double omega) {
-  return Assembly(tracker, steady, Interval(omega)).residual();
+  return Assembly(tracker, steady, Interval(omega), false).residual();
 }
 
 }  // namespace veritrack::model

@@ -61,6 +61,7 @@ struct LoopNetwork {
     std::size_t angle = 0;
   };
   std::vector<TurningPart> turning;
+  bool shares_noise = false;             ///< the noise of a sample is one input
   bool may_rest_at_kink = false;         ///< then there is no matrix to first order
   bool has_ripples = false;              ///< then bounds are for a constant frequency
   std::vector<std::size_t> state_forms;  ///< with rounding: the forms that are the states, in their order
@@ -70,10 +71,10 @@ struct LoopNetwork {
   std::optional<std::pair<std::size_t, double>> frequency_state;
 };
 
-/// At the frequencies of `band`, rad/sample. Throws NoFrame where the rules do not cover the loop. Needs the
-/// upward rounding mode.
+/// At the frequencies of `band`, rad/sample. With `shares_noise` the noise of a sample is one input wherever
+/// it comes in. Throws NoFrame where the rules do not cover the loop. Needs the upward rounding mode.
 [[nodiscard]] LoopNetwork loop_network(const TrackerModel& tracker, const std::vector<SteadyValue>& steady,
-                                       const rigor::Interval& band);
+                                       const rigor::Interval& band, bool shares_noise = false);
 
 /// How far a step leads away from a proposed steady state at one frequency, and the matrix. Not evidence.
 struct StepResidual {

@@ -37,9 +37,6 @@ namespace {
 /// angle times its length.
 void add_turned_samples(LoopNetwork& network, const LoopRounding& rounding) {
   for (NetworkInput& input : network.inputs) {
-    if (input.cause != NetworkInput::Cause::noise) {
-      continue;
-    }
     input.size = [size = std::move(input.size), turned = rounding.turned, amplitude = rounding.amplitude](
                      double noise, double slew, const std::vector<double>& bounds) {
       const double off = rigor::mul_up(turned, rigor::add_up(amplitude, noise));

@@ -191,6 +191,24 @@ ProvedSets unstable(GainProof proof) {
   return sets;
 }
 
+/// The gains with the noise of a sample as one input, where their bound in the long run is clearly better:
+/// for a loop that multiplies a sample by an earlier one. Each wave with a noise of its own has fewer
+/// remainders.
+std::optional<GainBounds> with_shared_noise(const SetQuestion& question, const FoundLoop& found,
+                                            const GainBounds& gains, const LoopDisturbance& assumed) {
+  constexpr double kClearly = 0.95;
+  if (question.tracker.recursion->samples != 2 || !(question.noise > 0.0)) {
+    return std::nullopt;
+  }
+  std::optional<GainBounds> shared =
+      GainBounds::make(loop_network(question.tracker, found.steady, question.whole_band, true),
+                       gains.samples(), gains.blocks());
+  const std::optional<LoopBounds> bounds = shared ? shared->bounds(assumed) : std::nullopt;
+  const std::optional<LoopBounds> separate = bounds ? gains.bounds(assumed) : std::nullopt;
+  const bool is_better = bounds && (!separate || bounds->long_run < kClearly * separate->long_run);
+  return is_better ? std::move(shared) : std::nullopt;
+}
+
 /// The rounding of the program while its states are as far from the steady state as they come without it, and
 /// half as far again. Throws NoRounding.
 LoopRounding rounding_of(const SetQuestion& question, const FoundLoop& found, const GainBounds& gains,
@@ -314,11 +332,14 @@ std::optional<ProvedSets> prove_by_gains(const SetQuestion& question, NoGains* r
       return nothing(NoGains::Kind::residual);
     }
     const double half_distance = half_distance_to_false_lock(question.tracker, band);
-    ProvedSets sets = GainSets(question, *gains, half_distance).all();
     LoopDisturbance assumed{question.noise, question.slew, {}};
     for (const Interval& each : question.deviations) {
       assumed.start.push_back(each.upper());
     }
+    if (std::optional<GainBounds> shared = with_shared_noise(question, *found, *gains, assumed)) {
+      gains = std::move(shared);
+    }
+    ProvedSets sets = GainSets(question, *gains, half_distance).all();
     std::optional<LoopRounding> rounding;
     if (question.rounding) {
       try {

@@ -66,13 +66,14 @@ int LinearFrame::length(int y, int x) {
   return made("length " + std::to_string(y) + " " + std::to_string(x), [&] {
     const LinearValue real = at(x);
     const Ball of_x = base(real);
-    const Ball whole = sqrt(square(base(at(y))) + square(of_x));
+    const Ball squared = square(base(at(y)));
+    const Ball whole = sqrt(squared + square(of_x));
     if (!certainly_positive(of_x)) {
       throw NotCovered("a vector that may be turned back");
     }
     const auto [u, v] = relative_to_direction(y, x);
     LinearValue result;
-    result.constant = real.constant + (whole - of_x);
+    result.constant = real.constant + squared / (whole + of_x);  // L - x, whose widths are not added
     result.per_frequency = real.per_frequency;
     add_deviations(result, at(u), whole);
     if (!at(u).deviations.empty() || !at(v).deviations.empty()) {
@@ -98,12 +99,40 @@ int LinearFrame::quarter_turns(int count) {
 }
 
 int LinearFrame::noise_angle() {
+  if (has_one_noise_) {
+    return made("angle of the noise", [this] {
+      // Im log(1 + z), z = n/A: its series after Im z is below that of -log(1 - |z|) after |z|.
+      const Ball least = least_;
+      const std::size_t rest =
+          add_input({[least](const Ball& noise) {
+                       const Ball z = noise / least;
+                       return certainly_less(z, one) ? -log(one - z) - z : Ball::everything();
+                     },
+                     {},
+                     nullptr});
+      LinearValue value;
+      add_deviations(value, at(noise_part(1)), one / Ball::hull(least_, largest_));
+      value.deviations[rest] = {one, zero};
+      return value;
+    });
+  }
   return made("noise angle", [this] {
     const Ball least = least_;
     const std::size_t source =
         add_input({[least](const Ball& noise) { return arcsine(noise / least); }, {}, nullptr});
     LinearValue value;
     value.deviations[source] = {one, zero};
+    return value;
+  });
+}
+
+int LinearFrame::noise_part(std::size_t part) {
+  return made("noise part " + std::to_string(part), [&] {
+    const std::size_t source = named_input("the noise", [] {
+      return FrameInput{[](const Ball& noise) { return noise; }, {}, nullptr};
+    });
+    LinearValue value;
+    value.deviations[source] = part == 0 ? InputFactor{one, zero} : InputFactor{zero, one};
     return value;
   });
 }

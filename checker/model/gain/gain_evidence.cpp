@@ -100,11 +100,13 @@ std::unique_ptr<Gains> read_gains(const Tree& gains, const Tree& model, const Mo
   if (recursion.samples() == 1 && !certainly_positive(design.lowest)) {
     objections.emplace_back("in one channel, gains are for frequencies above 0");
   }
+  const Tree* one_noise = has_bounds ? gains.find("one_noise") : nullptr;
   if (!objections.empty()) {
     return nullptr;
   }
   try {
-    auto result = std::make_unique<Gains>(gain_network(recursion, design, steady));
+    auto result = std::make_unique<Gains>(
+        gain_network(recursion, design, steady, one_noise != nullptr && one_noise->truth()));
     if (!has_bounds) {
       return result;
     }

@@ -186,7 +186,7 @@ std::vector<int> next_numbers(LinearFrame& frame, const std::vector<FrameValue>&
 }  // namespace
 
 GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& design,
-                         const std::vector<SteadyState>& steady) {
+                         const std::vector<SteadyState>& steady, bool has_one_noise) {
   const std::size_t n = recursion.states();
   if (recursion.filtered() > 0 || steady.size() != n) {
     throw NotCovered(recursion.samples() == 2
@@ -197,7 +197,7 @@ GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& des
     throw NotCovered("in one channel, gains are for one amplitude at all samples");
   }
   LinearFrame frame(n, design.least_amplitude, design.largest_amplitude, design.lowest, design.highest,
-                    recursion.samples());
+                    recursion.samples(), has_one_noise);
   const FrameScope scope(frame);
   require_vectors(steady, recursion.is_angle(), design, recursion.samples());
   const std::vector<FrameValue> state = frame_states(steady, recursion.is_angle());

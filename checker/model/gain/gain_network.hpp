@@ -94,7 +94,8 @@ struct GainNetwork {
 };
 
 /// Throws NotCovered where the method says nothing. One steady state for each state; turns of angles alone.
+/// With `has_one_noise` the noise of a sample is one input wherever it comes in.
 GainNetwork gain_network(const ModelRecursion& recursion, const ModelDesign& design,
-                         const std::vector<SteadyState>& steady);
+                         const std::vector<SteadyState>& steady, bool has_one_noise = false);
 
 }  // namespace veritrack::checker

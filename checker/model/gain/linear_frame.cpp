@@ -34,12 +34,17 @@ void add_deviations(LinearValue& sum, const LinearValue& x, const Ball& factor) 
 }
 
 LinearFrame::LinearFrame(std::size_t states, Ball least_amplitude, Ball largest_amplitude, const Ball& lowest,
-                         const Ball& highest, std::size_t channels)
+                         const Ball& highest, std::size_t channels, bool has_one_noise)
     : states_(states),
       channels_(channels),
+      has_one_noise_(has_one_noise),
       least_(std::move(least_amplitude)),
       largest_(std::move(largest_amplitude)),
-      frequency_(Ball::hull(lowest, highest)) {}
+      frequency_(Ball::hull(lowest, highest)) {
+  if (has_one_noise && channels != 2) {
+    throw NotCovered("the noise of a sample is one input in two channels only");
+  }
+}
 
 Ball LinearFrame::base(const LinearValue& value) const {
   return value.constant + value.per_frequency * frequency_;

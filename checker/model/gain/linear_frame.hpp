@@ -66,9 +66,10 @@ struct FrameLimit {
 
 class LinearFrame {
  public:
-  /// Amplitudes and frequencies are anywhere in these ranges. Samples have one channel or two.
+  /// Amplitudes and frequencies are anywhere in these ranges. Samples have one channel or two. With two, the
+  /// noise of a sample may be one input wherever it comes in.
   LinearFrame(std::size_t states, Ball least_amplitude, Ball largest_amplitude, const Ball& lowest,
-              const Ball& highest, std::size_t channels);
+              const Ball& highest, std::size_t channels, bool has_one_noise = false);
 
   // Each returns the number of the value. Throws NotCovered.
   int number(const Ball& value);
@@ -96,6 +97,8 @@ class LinearFrame {
   int certain_sign(int x);
   /// The angle that noise adds to that of the sample.
   int noise_angle();
+  /// The real (0) or imaginary (1) part of the noise, turned back by the phase of the signal: one input.
+  int noise_part(std::size_t part);
   int quarter_turns(int count);
   /// The value less a multiple of `period`, certain to be within half a period of 0.
   int principal(int x, const Ball& period);
@@ -122,6 +125,7 @@ class LinearFrame {
   [[nodiscard]] const Ball& largest_amplitude() const { return largest_; }
   [[nodiscard]] std::size_t states() const { return states_; }
   [[nodiscard]] bool has_one_channel() const { return channels_ == 1; }
+  [[nodiscard]] bool has_one_noise() const { return has_one_noise_; }
   [[nodiscard]] const std::vector<FrameInput>& inputs() const { return inputs_; }
   [[nodiscard]] const std::vector<FrameLimit>& limits() const { return limits_; }
   /// The values that are angles of waves, or of which a function took one turn only.
@@ -143,6 +147,7 @@ class LinearFrame {
   [[nodiscard]] LinearValue value_of_function(const std::string& name, int x);
 
   std::size_t states_, channels_;
+  bool has_one_noise_;
   Ball least_, largest_, frequency_;
   std::map<std::string, int> names_;
   std::vector<LinearValue> values_;

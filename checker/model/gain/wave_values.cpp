@@ -192,6 +192,54 @@ void add_scaled(LinearFrame& frame, LinearValue& sum, const Wave& wave, const In
   }
 }
 
+/// At least what |1 + z|^s e^(j m arg(1 + z)) = (1 + z)^a (1 + z*)^b is off from 1 + s Re z + j m Im z, where
+/// |z| <= share: no coefficient of its series is larger than that of one function of `share`.
+Ball curvature_of_noise(int s, int m, const Ball& share) {
+  const int order = std::max(std::abs(s), std::abs(m));
+  const bool is_polynomial = s >= std::abs(m) && (s - m) % 2 == 0;
+  if (!is_polynomial && !certainly_less(share, one)) {
+    return Ball::everything();
+  }
+  const Ball whole = is_polynomial ? power(one + share, order) : power(one / (one - share), order);
+  return abs(whole - one - Ball(order) * share);
+}
+
+/// Adds what noise does to Re(conj(gamma) M), with the noise as one input. `turned` is conj(gamma) e^(j b).
+void add_one_noise(LinearFrame& frame, LinearValue& sum, const Wave& wave, const InputFactor& gamma,
+                   const InputFactor& turned) {
+  const int s = wave.length;
+  const int m = wave.turns;
+  const Ball least = frame.least_amplitude();
+  const Ball largest = frame.largest_amplitude();
+  const Ball slope = Ball::hull(power(least, s - 1), power(largest, s - 1));
+  const int along = frame.noise_part(0);
+  add_deviations(sum, frame.at(along), Ball(s) * slope * turned.first);
+  add_deviations(sum, frame.at(frame.noise_part(1)), -(Ball(m) * slope * turned.second));
+  const int angle = angle_of(frame, wave);
+  const bool turns = !frame.at(angle).deviations.empty();
+  if (s == 1 && std::abs(m) == 1 && !turns) {
+    return;  // y itself
+  }
+  const Ball size = max(power(least, s), power(largest, s));
+  const auto curved = [size, least, s, m](const Ball& noise) {
+    return size * curvature_of_noise(s, m, noise / least);
+  };
+  const std::size_t rest = frame.named_input("one noise in " + name_of(wave), [&] {
+    if (!turns) {
+      return FrameInput{curved, {}, nullptr};
+    }
+    // |n| is at most the bound of its real part: that is the bound of the input itself.
+    const Ball steepest = Ball(std::max(std::abs(s), std::abs(m))) * size / least;
+    return FrameInput{nullptr, {angle, along}, [curved, steepest](const std::vector<Ball>& bounds) {
+                        const Ball chord = two * sin(half * min(bounds.at(0), pi()));
+                        return curved(bounds.at(1)) + steepest * bounds.at(1) * chord;
+                      }};
+  });
+  LinearValue unit;
+  unit.deviations[rest] = gamma;
+  add_deviations(sum, unit, one);
+}
+
 /// Adds Re(conj(gamma) M) as a linear value; gamma = (real, imaginary).
 void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ball& real,
                 const Ball& imaginary) {
@@ -216,7 +264,10 @@ void add_linear(LinearFrame& frame, LinearValue& sum, const Wave& wave, const Ba
   const Ball c1 = amplitude * (imaginary * cos(b) - real * sin(b));
   sum.constant += c0;
   add_deviations(sum, phase, c1);
-  if (!frame.has_one_channel() && (s != 0 || m != 0)) {
+  if (frame.has_one_noise() && (s != 0 || m != 0)) {
+    add_one_noise(frame, sum, wave, {real, imaginary},
+                  {real * cos(b) + imaginary * sin(b), real * sin(b) - imaginary * cos(b)});
+  } else if (!frame.has_one_channel() && (s != 0 || m != 0)) {
     const std::size_t noise = frame.named_input("noise in " + name_of(wave), [&] {
       return FrameInput{[least = frame.least_amplitude(), largest = frame.largest_amplitude(), s,
                          m](const Ball& bound) { return noise_in_wave(least, largest, s, m, bound); },

@@ -88,6 +88,24 @@ inline ExampleTracker turn_between_samples(double gain, double kept = 1.0) {
   return example;
 }
 
+/// The turn by products of this pair of samples and the last one. States p1, p2 (the last samples) and w;
+/// w' = w + gain ((y2 p1 - y1 p2) cos w - (y1 p1 + y2 p2) sin w).
+inline ExampleTracker product_of_samples(double gain) {
+  ExampleTracker example = turn_between_samples(gain);
+  StraightLineProgram step(7);
+  const int g = 0, p1 = 2, p2 = 3, w = 4, y1 = 5, y2 = 6;
+  const auto product = [&](int a, int b) { return step.append(Operation::multiply, a, b); };
+  const int cross = step.append(Operation::subtract, product(y2, p1), product(y1, p2));
+  const int dot = step.append(Operation::add, product(y1, p1), product(y2, p2));
+  const int turned = step.append(Operation::subtract, product(cross, step.append(Operation::cos, w)),
+                                 product(dot, step.append(Operation::sin, w)));
+  step.add_result(y1);
+  step.add_result(y2);
+  step.add_result(step.append(Operation::add, w, product(g, turned)));
+  example.recursion.step = std::move(step);
+  return example;
+}
+
 /// The loop as the verification sees it, on a tone of two channels.
 struct TwoChannelExample {
   ExampleTracker tracker;

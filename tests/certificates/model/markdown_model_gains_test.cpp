@@ -51,6 +51,37 @@ TEST_CASE("a proved set that may reach a false lock is no tolerated noise: the d
                   "(`docs/model-proof.md`, section 18).") != std::string::npos);
 }
 
+TEST_CASE("a clamp on the whole phase error is named where it limits the noise that is tolerated") {
+  const auto sections = [](const std::string& limit) {
+    const std::string text = R"(name = "PLL with a clamp"
+tracker = "model"
+[model]
+samples = ['y1', 'y2']
+parameters = { most = )" + limit +
+                             R"( }
+states = ['theta', 'w']
+angles = ['theta']
+step = '''
+ahead  = theta + w
+e      = clamp(atan2(y2*cos(ahead) - y1*sin(ahead), y1*cos(ahead) + y2*sin(ahead)), -most, most)
+w'     = w + 0.004*e
+theta' = ahead + 0.1*e
+'''
+frequency = 'w'
+start = { theta = 0, w = 'omega' }
+[assume]
+amplitude = 1
+frequency = [0.2, 0.5]
+noise = 0.1
+)";
+    return model_sections(certify(test::loop_design(text), "pll.toml", text, {}, Extent::everything), {});
+  };
+  const std::string text = sections("0.3");
+  CHECK_MESSAGE(text.find("More noise makes a clamp act: clamp(atan2(") != std::string::npos, text);
+  CHECK_MESSAGE(text.find(", most = 0.3) (line 10).") != std::string::npos, text);
+  CHECK(sections("3.5").find("makes a clamp act") == std::string::npos);
+}
+
 TEST_CASE("over a band through 0, too, what describes a phase twice is named") {
   const std::string text = R"(name = "FLL behind an oscillator"
 tracker = "model"

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,19 @@ TEST_CASE("every operation that may be undefined has words with its formula and 
   CHECK(std::find(of_wrap.begin(), of_wrap.end(),
                   "wrap(y) (line 12) may reach its jump, where what it wraps is half a turn") !=
         of_wrap.end());
+}
+
+TEST_CASE("a clamp is shown with its limits and its line") {
+  const rigor::UpwardRounding upward;
+  const Design design = read_design(
+      loop_with("e      = -2*y*sin(theta + w)\n", "e = clamp(-2*y*sin(theta + w), -0.3, kp)\n"), "loop.toml");
+  const ModelTables& tables = model_tables(design);
+  const Model model = make_model(tables.model, tables.assume.signal);
+  const std::vector<std::string> clamps = clamps_of(model);
+  REQUIRE(clamps.size() == 1);
+  CHECK_MESSAGE(std::regex_match(
+                    clamps[0], std::regex(R"(clamp\(-2\*y\*sin\(.*\), -0\.3, kp = 0\.[0-9]+\) \(line 12\))")),
+                clamps[0]);
 }
 
 }  // namespace

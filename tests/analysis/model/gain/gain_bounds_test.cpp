@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "analysis/model/gain/frame_value.hpp"
@@ -208,6 +209,64 @@ TEST_CASE("a detector of signs is linear while none of them changes, and at rest
     CHECK(reached >= 0.6 * bounds->long_run);
   }
   CHECK_THROWS_AS((void)loop_network(loop.model, {{1, 0.0, 1.0}, {0, 0.0, 1.0}}, kBand), NoFrame);
+}
+
+/// The largest frequency error of product_of_samples at samples (1 + n_k) e^(i k omega), in doubles.
+template <typename Noise>
+double largest_error_of_products(double gain, double omega, std::size_t samples, const Noise& noise) {
+  double w = omega;
+  double largest = 0.0;
+  std::complex<double> last(1.0, 0.0);
+  for (std::size_t k = 1; k <= samples; ++k) {
+    const std::complex<double> sample =
+        (1.0 + noise(k)) *
+        std::polar(1.0, std::remainder(static_cast<double>(k) * omega, 2.0 * std::numbers::pi));
+    w += gain * std::imag(sample * std::conj(last) * std::polar(1.0, -w));
+    last = sample;
+    largest = std::max(largest, std::fabs(w - omega));
+  }
+  return largest;
+}
+
+TEST_CASE("noise that two samples have in common is counted once: no attack on a product of samples passes") {
+  constexpr double kGain = 0.02, kNoise = 0.01;
+  const test::TwoChannelExample loop(test::product_of_samples(kGain));
+  const std::vector<SteadyValue> steady{{1, 0.0, 0.0, 1}, {0, 1.0, 0.0}, {0, 0.0, 1.0}};
+  std::optional<LoopBounds> one;
+  std::optional<LoopBounds> each;
+  {
+    const rigor::UpwardRounding upward;
+    const auto bounds = [&](bool shares_noise) {
+      return GainBounds::make(loop_network(loop.model, steady, kBand, shares_noise), 4096, 64)
+          .value()
+          .bounds({kNoise, 0.0, {}});
+    };
+    one = bounds(true);
+    each = bounds(false);
+  }
+  REQUIRE(one.has_value());
+  REQUIRE(each.has_value());
+  CHECK(one->long_run < 0.05 * each->long_run);
+  double reached = 0.0;
+  for (const double omega : {-0.9, 0.2, 0.5}) {
+    reached = std::max(reached, attack_loop(loop.tone, steady, omega, kNoise, 0.0, 4096));
+    // Noise that turns: then the products of noise with noise add up.
+    for (int i = 0; i <= 64; ++i) {
+      const double turn = std::numbers::pi * i / 32.0;
+      reached = std::max(reached, largest_error_of_products(kGain, omega, 2000, [&](std::size_t k) {
+                           return std::polar(
+                               kNoise, std::remainder(turn * static_cast<double>(k), 2.0 * std::numbers::pi));
+                         }));
+    }
+  }
+  test::Random random(5231);
+  for (std::int64_t trial = 0; trial < test::effort(100); ++trial) {
+    reached = std::max(reached, largest_error_of_products(kGain, 0.3, 500, [&](std::size_t) {
+                         return std::polar(kNoise, random.uniform(-4.0, 4.0));
+                       }));
+  }
+  CHECK(reached <= one->for_ever * (1.0 + 1e-11));
+  CHECK(reached >= 0.5 * one->long_run);
 }
 
 TEST_CASE("a wrong steady state makes bounds longer by what it is wrong, or none") {

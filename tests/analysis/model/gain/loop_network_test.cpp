@@ -25,6 +25,7 @@ struct NetworkCase {
   std::vector<SteadyValue> steady;
   Interval amplitude = Interval(1.0);
   double errors = 0.5, noise = 0.3;
+  bool shares_noise = false;
 };
 
 double nearest_turn_off(double angle) {
@@ -113,7 +114,7 @@ double attack_network(const NetworkCase& of, std::uint64_t stream) {
   TrackerModel tracker = loop.model;
   tracker.amplitude = of.amplitude;
   const Interval band = Interval::from_bounds(0.2, 0.3);
-  const LoopNetwork network = loop_network(tracker, of.steady, band);
+  const LoopNetwork network = loop_network(tracker, of.steady, band, of.shares_noise);
   const auto n = static_cast<Eigen::Index>(of.steady.size());
   test::Random random(stream);
   double reached = 0.0;
@@ -183,6 +184,8 @@ TEST_CASE("one sample of a loop is within the matrix and the inputs of its netwo
     CAPTURE(stream);
     CHECK(attack_network({tracker, steady, Interval(1.0)}, ++stream) > 0.9);
     CHECK(attack_network({tracker, off, amplitudes}, ++stream) > 0.5);
+    CHECK(attack_network({tracker, steady, Interval(1.0), 0.5, 0.3, true}, ++stream) > 0.8);
+    CHECK(attack_network({tracker, off, amplitudes, 0.5, 0.3, true}, ++stream) > 0.5);
   }
   // Errors beyond the limits of the detectors: there nothing is said.
   for (const Detector detector : {Detector::arctangent2, Detector::arctangent}) {
@@ -191,6 +194,8 @@ TEST_CASE("one sample of a loop is within the matrix and the inputs of its netwo
   }
   const std::vector<SteadyValue> vector{{1, 0.0, 0.0, 1}, {}, {0, 0.0, 1.0}};
   CHECK(attack_network({test::turn_between_samples(0.2), vector, amplitudes}, ++stream) > 0.9);
+  CHECK(attack_network({test::turn_between_samples(0.2), vector, amplitudes, 0.5, 0.3, true}, ++stream) >
+        0.8);
 }
 
 }  // namespace veritrack::model

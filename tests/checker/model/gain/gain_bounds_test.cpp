@@ -208,6 +208,27 @@ TEST_CASE("a short horizon gives larger bounds, which are true as well") {
   }
 }
 
+TEST_CASE("of a loop that multiplies two samples, noise that both have in common cancels") {
+  const std::vector<Ball> still(3);
+  Loop loop = test::product_loop();
+  const auto long_run = [&](bool has_one_noise) {
+    loop.has_one_noise = has_one_noise;
+    const GainNetwork network = loop.network();
+    const GainBounds bounds(network, 4096, 64);
+    REQUIRE(bounds.is_certain());
+    const auto errors = bounds.errors(Ball(0.01), zero, still);
+    REQUIRE(errors.has_value());
+    return errors->in_long_run().upper_double();
+  };
+  // To first order the noise of a sample comes in with the gain 0.02, and from the next one on with 0.02
+  // times the pole 0.98 less 1: twice 0.02 in all. The products of noise with noise add up to its square.
+  const double linear = 2.0 * 0.02 * 0.01;
+  CHECK(long_run(true) >= linear);
+  CHECK(long_run(true) >= 0.01 * 0.01);
+  CHECK(long_run(true) <= linear + 5.0 * 0.01 * 0.01);
+  CHECK(long_run(false) >= 2.0 * 0.01);
+}
+
 TEST_CASE("too short a horizon and a loop that is not stable are refused") {
   const GainNetwork network = test::motor_loop().network();
   CHECK_FALSE(GainBounds(network, 16, 4).is_certain());

@@ -161,6 +161,10 @@ TEST_CASE("evidence or a design that is not what it should be is refused") {
   CHECK(changes("blocks", 512));
   CHECK(changes("steady_state", Json::array()));
   CHECK(changes("other", 1));
+  CHECK(changes("one_noise", 1));
+  // Noise of 0.99 of the amplitude is near the end of the series of the angle that it adds.
+  CHECK(changes("one_noise", true));
+  CHECK_FALSE(changes("one_noise", false));
   const auto changes_state = [](std::size_t index, const std::string& name, const Json& value) {
     return refuses([&](Json& c) { c["gains"]["steady_state"][index][name] = value; });
   };

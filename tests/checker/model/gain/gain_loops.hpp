@@ -26,6 +26,7 @@ struct Loop {
   std::vector<std::string> angles{"phase"};
   bool has_one_channel = false;
   bool amplitude_varies = false;
+  bool has_one_noise = false;
 
   [[nodiscard]] Json model() const {
     Json list = Json::array();
@@ -53,7 +54,7 @@ struct Loop {
   /// Throws NotCovered.
   [[nodiscard]] checker::GainNetwork network() const {
     const checker::ModelRecursion recursion(checker::read_json(model().dump()));
-    return checker::gain_network(recursion, design(), steady);
+    return checker::gain_network(recursion, design(), steady, has_one_noise);
   }
   [[nodiscard]] bool is_covered() const {
     try {
@@ -97,6 +98,18 @@ inline Loop third_order_loop() {
       kDetector + "rate' = rate + 0.0002*d\nfreq' = freq + rate' + 0.01*d\nphase' = phase + 0.2*d + freq'\n",
       "freq",
       {{1, 0.0, 1.0}, {0, 0.0, 1.0}, {0, 0.0, 0.0}}};
+}
+
+/// The turn from the last sample to this one by products; two states are the last sample.
+inline Loop product_loop() {
+  Loop loop{{"p", "r", "freq"},
+            {{"g", "0.02"}},
+            "p' = i\nr' = q\nfreq' = freq + g*((q*p - i*r)*cos(freq) - (i*p + q*r)*sin(freq))\n",
+            "freq",
+            {{1, 0.0, 0.0, 1}, {0, 1.0, 0.0}, {0, 0.0, 1.0}}};
+  loop.angles = {};
+  loop.has_one_noise = true;
+  return loop;
 }
 
 inline Loop gnss_loop() {

@@ -159,8 +159,12 @@ TEST_CASE("detectors of many kinds are covered, with amplitudes in a range") {
   Loop range = loop_with("");
   range.least_amplitude = 0.8;
   range.largest_amplitude = 1.3;
+  Loop one_noise = loop_with("");
+  one_noise.has_one_noise = true;
+  Loop one_noise_in_range = range;
+  one_noise_in_range.has_one_noise = true;
   const std::string parts = "s = q*cos(phase) - i*sin(phase)\nc = i*cos(phase) + q*sin(phase)\n";
-  for (const Loop& loop : {loop_with(""), range}) {
+  for (const Loop& loop : {loop_with(""), range, one_noise, one_noise_in_range}) {
     CHECK(covers_detector(loop, parts + "d = s",
                           [](double r, double t, const State&) { return r * std::sin(t); }));
     CHECK(covers_detector(loop, parts + "d = s/sqrt(i^2 + q^2)",

@@ -81,8 +81,10 @@ template <typename Scalar, int Lanes>
                                      const PackedPair<Scalar, Lanes>& x) {
   const auto largest = magnitude(angle.first()) + magnitude(angle.second());
   const auto both = x.first().numbers() + x.second().numbers();
+  const typename Packed<Scalar, Lanes>::Bits is_no_number =
+      both != both;  // NOLINT(misc-redundant-expression)
   return any(typename Packed<Scalar, Lanes>::Bits((largest > static_cast<Scalar>(kLargestPackedAngle)) |
-                                                  (both != both)));
+                                                  is_no_number));
 }
 
 }  // namespace detail

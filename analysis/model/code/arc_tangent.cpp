@@ -71,7 +71,7 @@ class SampleFunction {
       if (instruction.format.is_float) {
         Scaled found = operation(instruction);
         found.is_known = found.is_known && rigor::is_finite(found.range);
-        scaled_[index(place)] = std::move(found);
+        scaled_[index(place)] = found;
       } else {
         truths_[index(place)] = truth(instruction);
       }

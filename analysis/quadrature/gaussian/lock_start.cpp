@@ -63,6 +63,7 @@ Interval start_level(const LockSet& set, const LockStarts& starts) {
   const double widest = starts.phase_error.upper();
   const Interval most_squared = Interval(2.0) * Interval(set.level) / Interval(set.weight);
   const double most = rigor::sqrt(most_squared).lower();
+  // cannot bind (most): at the level 0, or at none, no covariance is strictly between its bounds.
   if (!(widest >= 0.0) || !certainly_positive(Interval(most))) {
     return Interval::empty();
   }

@@ -96,8 +96,9 @@ Case read_case(const std::filesystem::path& path) {
 
 /// How the names of files begin that have a test case of their own, which the search for guards that no test
 /// misses runs again and again.
-constexpr std::array kKinds{"model-",     "dft-",  "kkl-",    "regulator-", "phases-",
-                            "recursion-", "lock-", "lowest-", "mean-"};
+constexpr std::array kKinds{
+    "model-filter-", "model-gaussian-", "model-gains-", "model-start-", "model-",  "dft-", "kkl-",
+    "regulator-",    "phases-",         "recursion-",   "lock-",        "lowest-", "mean-"};
 
 /// Rejected certificates are read and not verified, for the reason that their file names: those whose names
 /// begin so, or, without a beginning, those that are of no kind.
@@ -109,9 +110,9 @@ void check_rejected(const std::string& beginning) {
   std::int64_t looked_at = 0;
   for (const auto& path : files_of("rejected")) {
     const std::string file = path.filename().string();
-    const bool is_of_kind =
-        std::any_of(kKinds.begin(), kKinds.end(), [&](const char* kind) { return file.starts_with(kind); });
-    if (!file.starts_with(beginning) || (beginning.empty() && is_of_kind)) {
+    const auto* kind =
+        std::find_if(kKinds.begin(), kKinds.end(), [&](const char* each) { return file.starts_with(each); });
+    if (beginning != (kind == kKinds.end() ? "" : *kind)) {
       continue;
     }
     ++looked_at;
@@ -168,6 +169,16 @@ TEST_CASE("rejected certificates: of the quadrature tracker") {
 
 TEST_CASE("rejected certificates: of recursions") {
   check_rejected("model-");
+}
+
+TEST_CASE("rejected certificates: of recursions, by gains and from given starts") {
+  check_rejected("model-gains-");
+  check_rejected("model-start-");
+}
+
+TEST_CASE("rejected certificates: of filters, and in Gaussian noise") {
+  check_rejected("model-filter-");
+  check_rejected("model-gaussian-");
 }
 
 TEST_CASE("rejected certificates: of blocks") {

@@ -34,6 +34,8 @@ Loss loss_of(const BlockProblem& problem, const BlockNoise& noise, const BlockLo
     power = power * (one + slew_share);
     log_factor += half * theta * (one + one / slew_share) * square(problem.slew) * length;
   }
+  // cannot bind (noise.deviation): that of a design is above 0, or refused (block_design.cpp), and theta is
+  // anything where it may be 0.
   if (!certainly_positive(power) || !certainly_less(power, one) || !certainly_positive(noise.deviation)) {
     return {};
   }

@@ -193,6 +193,7 @@ bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) con
       monomials);
   const Ball left = one - Ball(spare.margin);
   const Ball ratio(spare.ratio);
+  // cannot bind (ratio): it is 1, or that of an entry, of at least 1 or refused (tube_evidence.cpp).
   if (!certainly_positive(left) || !certainly_at_most(left, one) || !certainly_at_most(one, ratio)) {
     return false;
   }

@@ -123,6 +123,8 @@ bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball&
     // In the frame of the true phase nothing is turned by rounding.
     const Ball share =
         rounding_share(whole(low), {zero, zero, zero, rounding.p_zz, rounding.p_z3, rounding.p_33}).upper();
+    // cannot bind ((share, one)): a share is at most 2^-8, or anything (rounding_share), and then the next
+    // matrix is not definite.
     if (!certainly_less(share, one) || !definite(whole(lock_room() * set.above + (-share) * high)) ||
         !definite(whole(lock_room() * set.below + (-(share / (one - share))) * inverse(low)))) {
       return false;

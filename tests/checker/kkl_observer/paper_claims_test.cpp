@@ -1,4 +1,4 @@
-// The smallest singular value of the Vandermonde matrix, against Eigen's.
+// The smallest singular value of the Vandermonde matrix, against Eigen's; for which ell the inverse is exact.
 #include "checker/kkl_observer/paper_claims.hpp"
 
 #include <doctest/doctest.h>
@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/oracles.hpp"
@@ -35,11 +37,12 @@ KklDesign design_of(const std::vector<Ball>& rates) {
 }
 
 std::size_t objections_to(const std::string& quantities, const std::string& conditions,
-                          const KklDesign& design) {
+                          const KklDesign& design, const Ball& ell = one,
+                          const std::optional<EllEnclosure>& infimum = std::nullopt) {
   Objections objections;
   check_paper_claims(
       read_json(R"({"quantities": {)" + quantities + R"(}, "conditions": [)" + conditions + "]}"), design,
-      one, std::nullopt, objections);
+      ell, infimum, objections);
   return objections.size();
 }
 
@@ -74,4 +77,25 @@ TEST_CASE("equal rates tell too little for an injective map") {
   const std::string claim = R"({"id": "injectivity", "verdict": "proved"})";
   CHECK(objections_to("", claim, design_of({one, two, Ball(3.0), four})) == 0);
   CHECK(objections_to("", claim, design_of({one, two, two, four})) > 0);
+}
+
+TEST_CASE("mu vanishes for ell up to twice the infimum, certainly not above it, and in between who knows") {
+  const auto is_accepted = [](const char* verdict, double ell) {
+    bool all = true;
+    for (const std::string id : {"mu-vanishes", "left-inverse"}) {
+      all = all && objections_to("", R"({"id": ")" + id + R"(", "verdict": ")" + verdict + R"("})",
+                                 design_of({one, two, Ball(3.0), four}), Ball(ell),
+                                 EllEnclosure{one, two, Ball(3.0)}) == 0;
+    }
+    return all;
+  };
+  for (const auto& [ell, verdict] :
+       {std::pair(1.0, "proved"), std::pair(2.0, "proved"), std::pair(2.001, "undecided"),
+        std::pair(3.0, "undecided"), std::pair(4.0, "undecided"), std::pair(4.001, "refuted")}) {
+    for (const std::string claimed : {"proved", "refuted"}) {
+      CAPTURE(ell);
+      CAPTURE(claimed);
+      CHECK(is_accepted(claimed.c_str(), ell) == (claimed == verdict));
+    }
+  }
 }

@@ -122,6 +122,13 @@ TEST_CASE("beyond the neighbour") {
   CHECK(crosses(set));
   set.slew = 0.2501;
   CHECK_FALSE(crosses(set));
+  // The cell above begins sooner, so that from it the one below the neighbour is in reach sooner.
+  set = three_cells();
+  set.tubes[2] = follows(0.6875, 0.1875, 0.5);
+  set.slew = 0.125;
+  CHECK(crosses(set));
+  set.slew = 0.1251;
+  CHECK_FALSE(crosses(set));
   // With two cells, the frequency stays in the band.
   set.tubes.resize(2);
   CHECK(crosses(set));

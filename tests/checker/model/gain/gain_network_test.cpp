@@ -257,6 +257,16 @@ TEST_CASE("functions with kinks are covered, idle or not, and with limits that m
   };
   CHECK(is_at_rest("d = clamp(s, -0.1, 0.1)"));
   CHECK_FALSE(is_at_rest("d = max(s, 0) - max(-s, 0)"));
+  // So near a kink that rounding of the steady state might decide its side.
+  for (const char* lines : {"d = clamp(s, -%, 1)", "d = clamp(s, -1, %)", "d = max(s, -%)"}) {
+    CAPTURE(lines);
+    const auto with_distance = [&](const char* distance) {
+      std::string text = lines;
+      return text.replace(text.find('%'), 1, distance);
+    };
+    CHECK(is_at_rest(with_distance("0.000001")));
+    CHECK_FALSE(is_at_rest(with_distance("0.0000009")));
+  }
 }
 
 TEST_CASE("an arc tangent of two values is known off its cut") {

@@ -161,6 +161,15 @@ TEST_CASE("a design that gains with phases are not for is refused") {
   CHECK(assumes("noise", {{"snr_db", decimal("20")}}));
   CHECK(assumes("start_exactly", Json::array({{{"name", "w"}, {"formula", "0.5"}}})));
   CHECK(assumes("slew", decimal("1")));
+  for (const auto& [from, to] : {std::pair("0", "0.3009"), std::pair("0.2991", "3.1416")}) {
+    Json certificate = smoothing_certificate();
+    certificate["design"]["assume"]["frequency"] = {decimal(from), decimal(to)};
+    const Verification found = verified(certificate);
+    CHECK(std::any_of(found.parts.begin(), found.parts.end(), [](const Part& part) {
+      return part.name == "gains" && !part.objections.empty() &&
+             part.objections.front() == "in one channel, gains are for frequencies between 0 and pi";
+    }));
+  }
   CHECK(is_refused([](Json& c) {
     Json second = c["gains"]["cells"][0];
     second["frequency"] = exactly(0.3015);

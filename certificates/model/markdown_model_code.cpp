@@ -26,9 +26,10 @@ std::string files_table(const code::CompiledCode& compiled, const code::CodeTabl
   }
   rows.push_back({"compiler", as_code(compiled.compiler)});
   if (const auto& arc = compiled.arc_tangent) {
-    rows.push_back({"an arc tangent of its own",
-                    fmt::format("`r{}` below, which is within {:.4f} rad of atan2 of the samples",
-                                number_in_text(compiled.listing, arc->value), arc->error)});
+    rows.push_back(
+        {"an arc tangent of its own",
+         fmt::format("`r{}` below, which is within {:.4f} rad of atan2 of the samples, up to whole turns",
+                     number_in_text(compiled.listing, arc->value), arc->error)});
   }
   std::string flags;
   for (const SourceText& flag : code.flags) {

@@ -28,9 +28,11 @@ std::string arithmetic_of(const ModelTable& model, bool is_rounded) {
     text += before == 1 ? " after its first step" : fmt::format(" after its first {} steps", before);
   }
   if (const auto& arc = model.compiled->arc_tangent; arc && !is_rounded) {
-    text += fmt::format(", with atan2({}, {}) in place of r{}, which is within {:.4f} rad of it",
-                        model.samples[1].text, model.samples[0].text,
-                        number_in_text(model.compiled->listing, arc->value), arc->error);
+    text += fmt::format(
+        ", with atan2({}, {}) in place of r{}, which is within {:.4f} rad of it, up to whole turns, where "
+        "the larger sample has a size of 2^-40 to 2^40",
+        model.samples[1].text, model.samples[0].text, number_in_text(model.compiled->listing, arc->value),
+        arc->error);
   }
   if (is_rounded) {
     text +=

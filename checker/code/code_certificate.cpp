@@ -176,7 +176,8 @@ std::string words_of_arithmetic(const Tree& design, bool is_rounded) {
   if (arc != nullptr && design.at("model").at("samples").elements().size() == 2) {
     const std::vector<Tree>& samples = design.at("model").at("samples").elements();
     words += ", with atan2(" + samples.at(1).text() + ", " + samples.at(0).text() + ") in place of " +
-             arc->at("register").text() + ", which is within " + arc->at("error").text() + " rad of it";
+             arc->at("register").text() + ", which is within " + arc->at("error").text() +
+             " rad of it, up to whole turns, where the larger sample has a size of 2^-40 to 2^40";
   }
   if (is_rounded) {
     words +=

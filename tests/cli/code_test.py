@@ -125,7 +125,8 @@ class Code(unittest.TestCase):
         genuine = self.certificate(self.folder / "fast-arc-tangent.toml")
         document = (self.folder / "out" / "certificate.md").read_text()
         self.assertIn("In exact arithmetic of the listing of `step` and `frequency` in fast-arc-tangent.c", document)
-        self.assertIn("with atan2(beta, alpha) in place of r21, which is within 0.0103 rad of it", document)
+        self.assertIn("with atan2(beta, alpha) in place of r21, which is within 0.0103 rad of it, up to whole turns, where "
+                      "the larger sample has a size of 2^-40 to 2^40", document)
         self.assertIn("noise of at most 0.5, and 0.0103 rad of the arc tangent", document)
         self.assertIn("r21 = select.f32", document)  # the listing is the program's
         arc = genuine["design"]["code"]["arc_tangent"]

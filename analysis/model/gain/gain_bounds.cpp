@@ -146,9 +146,13 @@ std::optional<GainBounds> GainBounds::make(LoopNetwork network, std::size_t samp
 }
 
 Numbers GainBounds::sizes(const LoopDisturbance& disturbance, const Bounds& bounds) const {
+  // A sample of at most the amplitude and the noise that is turned is off by up to the angle times its
+  // length.
+  const double length = rigor::add_up(network_.largest_amplitude, disturbance.noise);
+  const double noise = rigor::add_up(disturbance.noise, rigor::mul_up(network_.turned, length));
   Numbers sizes;
   for (const NetworkInput& input : network_.inputs) {
-    sizes.push_back(input.size(disturbance.noise, disturbance.slew, bounds));
+    sizes.push_back(input.size(noise, disturbance.slew, bounds));
   }
   return sizes;
 }

@@ -67,6 +67,9 @@ struct LoopNetwork {
   std::vector<std::size_t> state_forms;  ///< with rounding: the forms that are the states, in their order
   double rounding_of_frequency = 0.0;    ///< what the reported frequency is off, rad/sample
   double most_noise = INFINITY;          ///< with rounding: no more is covered
+  /// A program has samples of this amplitude at most that are turned by up to so many rad:
+  /// docs/gain-proof.md, section 12. Inputs do not count it, the bounds do.
+  double turned = 0.0, largest_amplitude = 0.0;
   /// The one state of which the frequency error is a multiple, and the factor; or none.
   std::optional<std::pair<std::size_t, double>> frequency_state;
 };

@@ -31,27 +31,10 @@ LoopRounding rounding_within(std::vector<double> room, const RoundingOfStep& rou
   return result;
 }
 
-namespace {
-
-/// A sample of at most the amplitude and the noise that is turned by an angle is off by no more than the
-/// angle times its length.
-void add_turned_samples(LoopNetwork& network, const LoopRounding& rounding) {
-  for (NetworkInput& input : network.inputs) {
-    input.size = [size = std::move(input.size), turned = rounding.turned, amplitude = rounding.amplitude](
-                     double noise, double slew, const std::vector<double>& bounds) {
-      const double off = rigor::mul_up(turned, rigor::add_up(amplitude, noise));
-      return size(rigor::add_up(noise, off), slew, bounds);
-    };
-  }
-}
-
-}  // namespace
-
 void add_rounding(LoopNetwork& network, const LoopRounding& rounding) {
   const std::size_t n = network.a.size();
-  if (rounding.turned > 0.0) {
-    add_turned_samples(network, rounding);
-  }
+  network.turned = rounding.turned;
+  network.largest_amplitude = rounding.amplitude;
   // The frequency error stays the last form.
   const linear::Row error = network.forms.back();
   const std::vector<DirectTerm> direct = network.direct.back();

@@ -15,7 +15,7 @@ struct LoopRounding {
   std::vector<double> next;  ///< by state: what a step is off, at most
   double frequency = 0.0;    ///< the same of the reported frequency, rad/sample
   double turned = 0.0;       ///< the angle of the samples is off by up to this, rad
-  double amplitude = 0.0;    ///< at most; what turns the samples counts as noise
+  double amplitude = 0.0;    ///< of the samples, at most
   double most_noise = 0.0;   ///< signal units
 };
 
@@ -26,8 +26,8 @@ struct LoopRounding {
                                            const std::vector<SteadyValue>& steady,
                                            const rigor::Interval& band);
 
-/// Adds an input to each state, forms that are the states, and the limits to their room; and to the noise
-/// what turns the samples.
+/// Adds an input to each state, forms that are the states, the limits to their room, and what turns the
+/// samples.
 void add_rounding(LoopNetwork& network, const LoopRounding& rounding);
 
 }  // namespace veritrack::model

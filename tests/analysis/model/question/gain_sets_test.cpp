@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/model/gain/linear_loop.hpp"
 #include "analysis/model/tube/tube_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/model/gain_examples.hpp"
@@ -228,6 +229,9 @@ TEST_CASE("an angle of the samples that a program has with an error counts as no
   REQUIRE(turned.has_value());
   REQUIRE(plain.has_value());
   CHECK(turned->no_rounding == "");
+  // The loop to first order is that of an exact arc tangent.
+  CHECK(linear_loop(turned->gains->gains->network()).noise.norm() ==
+        doctest::Approx(linear_loop(plain->gains->gains->network()).noise.norm()));
   CHECK(turned->assumed->frequency_error == doctest::Approx(plain->assumed->frequency_error).epsilon(1e-9));
   CHECK(turned->assumed->settled_error == doctest::Approx(plain->assumed->settled_error).epsilon(1e-9));
   CHECK(turned->starts.settled_error > 0.3 * turned->assumed->settled_error);  // without noise, too

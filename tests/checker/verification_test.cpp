@@ -103,9 +103,9 @@ constexpr std::array kKinds{
 /// Rejected certificates are read and not verified, for the reason that their file names: those whose names
 /// begin so, or, without a beginning, those that are of no kind.
 void check_rejected(const std::string& beginning) {
-  // Of changes of a certificate that takes long .ci/run looks at a third, .ci/nightly at all.
-  constexpr std::int64_t kLong = 4'000'000;
-  const std::int64_t share = test::effort(100) < 40 ? 3 : 1;
+  // Of changes of a certificate that takes long .ci/run looks at a sixth, .ci/nightly at all.
+  constexpr std::int64_t kLong = 1'000'000;  // operations, a tenth of a second
+  const std::int64_t share = test::effort(100) < 40 ? 6 : 1;
   std::int64_t long_ones = 0;
   std::int64_t looked_at = 0;
   for (const auto& path : files_of("rejected")) {

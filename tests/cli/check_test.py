@@ -7,7 +7,7 @@ import urllib.parse
 import xml.etree.ElementTree
 
 import jsonschema
-from support import DESIGN, ROOT, CliTestCase
+from support import DESIGN, ROOT, CliTestCase, takes_long
 
 # The assumed start exceeds the first bound; settling within one sample is not certified.
 HARD = DESIGN + "\n[require]\nfrequency_error_below = 0.001\nsettled_below = 0.002\nsettles_within = 1\n"
@@ -195,6 +195,7 @@ class Check(CliTestCase):
         suites = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()
         self.assertEqual([suite.get("errors") for suite in suites], ["1", "0"])
 
+    @takes_long
     def test_the_number_of_jobs_changes_nothing(self):
         for number in range(3):
             self.write(HARD.replace("0.001\n", f"0.00{number + 1}\n"), f"{number}.toml")
@@ -280,6 +281,7 @@ class Cache(CliTestCase):
         path.chmod(0o666)
         self.assertEqual(self.check().returncode, 1)
 
+    @takes_long
     def test_what_makes_no_sense_is_not_read(self):
         self.check()
         path = self.kept()[0]

@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
-from support import ROOT, run
+from support import ROOT, run, takes_long
 
 DESIGN = ROOT / "designs" / "code" / "motor-pll.toml"
 ONE_CHANNEL = "sogi-fll.toml"
@@ -88,6 +88,7 @@ class Code(unittest.TestCase):
         bias["bias_low"], bias["bias_high"] = "-0.0000001", "0.0000001"
         self.assertIn(self.verdict(changed), (2, 3))
 
+    @takes_long
     def test_a_loop_of_one_channel_with_limits_has_its_rounding_too(self):
         genuine = self.certificate(self.folder / ONE_CHANNEL)
         document = (self.folder / "out" / "certificate.md").read_text()

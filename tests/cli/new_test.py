@@ -4,7 +4,7 @@ import re
 import shutil
 import unittest
 
-from support import ROOT, CliTestCase
+from support import ROOT, CliTestCase, takes_long
 
 TRACKERS = re.findall(r"VERITRACK_TRACKER\((\w+)\)", (ROOT / "certificates/trackers.def").read_text())
 
@@ -14,6 +14,7 @@ class New(CliTestCase):
         message = self.run_here("new", "no-such-tracker").stderr
         return re.search(r"\{(.*)\}", message).group(1).split(",")
 
+    @takes_long
     def test_each_tracker_has_one_which_is_proved_as_it_is(self):
         self.assertEqual(len(self.names()), len(TRACKERS))
         for tracker in self.names():

@@ -12,6 +12,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ["VERITRACK"]
 
 
+# Half a minute of certificates in a test that rarely fails: not in .ci/run, which has less effort.
+takes_long = unittest.skipIf(float(os.environ.get("VERITRACK_TEST_EFFORT", "1")) < 1, "takes long: with more effort")
+
+
 def scratch_folder():
     """A folder that goes away when the tests end."""
     folder = pathlib.Path(tempfile.mkdtemp())

@@ -8,7 +8,7 @@ import re
 import subprocess
 import unittest
 
-from support import DESIGN, ROOT, CliTestCase
+from support import DESIGN, ROOT, CliTestCase, takes_long
 
 CHECKER = os.environ["VERITRACK_VERIFY"]
 
@@ -82,6 +82,7 @@ class Verify(CliTestCase):
         self.write(flattering, "flattering.md")
         self.assertEqual(verify("--markdown", self.folder / "flattering.md", certificate).returncode, 3)
 
+    @takes_long
     def test_a_sentence_that_was_put_into_a_document(self):
         self.run_here("certify", "--no-verify", ROOT / "designs/la-scala-1994-figure-3.5-without-leak.toml", "--out", "out")
         certificate = self.folder / "out/certificate.json"
@@ -128,6 +129,7 @@ class Verify(CliTestCase):
         self.assertRegex(top, r"Why not: .* every P\(0\|0\) from 0.01 M to 1 M, .* a narrower range may help")
         self.assertEqual(verify(self.folder / "wide/certificate.json").returncode, 1)
 
+    @takes_long
     def test_two_channels_that_are_not_at_right_angles(self):
         # The loop of a public motor controller: its angle is that of a point on an ellipse.
         design = self.write("""\

@@ -119,7 +119,8 @@ TEST_CASE("the mean square in lock is above what the filter does") {
   CHECK(bound < most(found, "offset_error_bound"));
 }
 
-TEST_CASE("a slew needs a higher ratio, and starts that no set holds have none") {
+TEST_CASE("a slew needs a higher ratio, and starts that no set holds have none" *
+          doctest::test_suite("nightly")) {
   const double without = most(dft_block::derive_lowest_snr(lowest_question(0.0)), "lowest_snr");
   const theorems::Derivation moving = dft_block::derive_lowest_snr(lowest_question(1e-3));
   REQUIRE(moving.verdict == rigor::Verdict::proved);

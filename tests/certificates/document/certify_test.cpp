@@ -53,7 +53,7 @@ TEST_CASE("a proved bound is not broken by the simulated run") {
   }
 }
 
-TEST_CASE("what contraction does not cover is undecided, with the reason") {
+TEST_CASE("what contraction does not cover is undecided, with the reason" * doctest::test_suite("nightly")) {
   const std::pair<std::string, std::string> require{
       "[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 20\nsettled_below = 0.01"};
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{

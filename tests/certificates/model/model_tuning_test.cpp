@@ -70,7 +70,7 @@ TEST_CASE("requirements come first") {
   CHECK(impossible.changes[0].starts_with("Not proved: "));
 }
 
-TEST_CASE("each objective is certified, whether it is required or not") {
+TEST_CASE("each objective is certified, whether it is required or not" * doctest::test_suite("nightly")) {
   for (const char* objective : {"long-run", "for-ever", "radius", "noise"}) {
     CAPTURE(objective);
     const TuningResult result =

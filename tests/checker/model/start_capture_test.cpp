@@ -75,7 +75,7 @@ TEST_CASE("nothing rests on the first grid, and more samples are true, too") {
   CHECK_FALSE(verifies([](Json& claim) { claim["samples"] = "1e9"; }));
 }
 
-TEST_CASE("the least number of samples is not below what simulations need") {
+TEST_CASE("the least number of samples is not below what simulations need" * doctest::test_suite("nightly")) {
   // They are outside the set until sample 29 and later in the worst case (tests/analysis/model).
   std::size_t least = 48;
   while (least > 4 && verifies([&](Json& claim) { claim["samples"] = std::to_string(least - 2); })) {

@@ -117,7 +117,7 @@ TEST_CASE("no curve where one of the conditions fails") {
   CHECK(!checker::establish_invariant_curve(undefined, Ball(kFrequency), 0.0, Ball(kRate)));
 }
 
-TEST_CASE("every number of the derivation, one part in a thousand better") {
+TEST_CASE("every number of the derivation, one part in a thousand better" * doctest::test_suite("nightly")) {
   const Json derivation = accepted()["derivations"][0];
   REQUIRE(objections_to(derivation).empty());
   std::vector<Json> changed;

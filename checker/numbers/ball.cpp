@@ -67,6 +67,21 @@ void set_precision(slong bits) {
   detail::precision_bits = std::clamp<slong>(bits, 64, 4096);
 }
 
+Ball detail::product_of_ends(const Ball& x, const Ball& y) {
+  const auto times = [](const Ball& a, const Ball& b) { return value_of_arb(arb_mul, a, b); };
+  const Ball low = x.lower();
+  const Ball high = x.upper();
+  const Ball of_low = Ball::hull(times(low, y.lower()), times(low, y.upper()));
+  return Ball::hull(of_low, Ball::hull(times(high, y.lower()), times(high, y.upper())));
+}
+
+Ball detail::square_of_ends(const Ball& x) {
+  const auto squared = [](const Ball& t) { return value_of_arb(arb_sqr, t); };
+  return arb_contains_zero(x.raw()) != 0
+             ? Ball::from_end(zero, squared(end_of(arb_get_abs_ubound_arf, x, precision())))
+             : between_ends(x, squared);
+}
+
 Ball Ball::everything() {
   Ball z;
   arb_indeterminate(z.x_);

@@ -106,14 +106,34 @@ Ball value_of_arb(Function* function, const Operands&... operands) {
   return z;
 }
 
+namespace detail {
+/// Whether the radius is more than about 2^-16 of a midpoint that is not 0.
+inline bool is_wide(const Ball& x) {
+  const auto* middle = arb_midref(x.raw());
+  const auto* radius = arb_radref(x.raw());
+  return !arf_is_special(middle) && !mag_is_special(radius) && !COEFF_IS_MPZ(ARF_EXP(middle)) &&
+         !COEFF_IS_MPZ(MAG_EXP(radius)) && MAG_EXP(radius) - ARF_EXP(middle) >= -16;
+}
+Ball product_of_ends(const Ball& x, const Ball& y);
+Ball square_of_ends(const Ball& x);
+/// Of a function that rises.
+template <typename Function>
+Ball value_by_ends(Function* function, const Ball& x) {
+  return is_wide(x) ? Ball::hull(value_of_arb(function, x.lower()), value_of_arb(function, x.upper()))
+                    : value_of_arb(function, x);
+}
+}  // namespace detail
+
 inline Ball operator+(const Ball& x, const Ball& y) {
   return value_of_arb(arb_add, x, y);
 }
 inline Ball operator-(const Ball& x, const Ball& y) {
   return value_of_arb(arb_sub, x, y);
 }
+/// Of wide factors by their ends: midpoints and radii would be wider than the set of products.
 inline Ball operator*(const Ball& x, const Ball& y) {
-  return value_of_arb(arb_mul, x, y);
+  return detail::is_wide(x) && detail::is_wide(y) ? detail::product_of_ends(x, y)
+                                                  : value_of_arb(arb_mul, x, y);
 }
 inline Ball operator/(const Ball& x, const Ball& y) {
   return value_of_arb(arb_div, x, y);
@@ -131,18 +151,21 @@ inline Ball abs(const Ball& x) {
 inline Ball reciprocal(const Ball& x) {
   return one / x;
 }
+/// Of a wide ball by the ends of |x|, so that no square is below 0.
 inline Ball square(const Ball& x) {
-  return value_of_arb(arb_sqr, x);
+  const bool is_narrow = arb_is_exact(x.raw()) != 0 || !x.finite() ||
+                         (arf_is_zero(arb_midref(x.raw())) == 0 && !detail::is_wide(x));
+  return is_narrow ? value_of_arb(arb_sqr, x) : detail::square_of_ends(x);
 }
 inline Ball sqrt(const Ball& x) {
-  return value_of_arb(arb_sqrt, x);
+  return detail::value_by_ends(arb_sqrt, x);
 }
 /// The root of a quantity that is certainly not negative although its ball may reach below zero.
 inline Ball root_of_non_negative(const Ball& x) {
   return value_of_arb(arb_sqrtpos, x);
 }
 inline Ball log(const Ball& x) {
-  return value_of_arb(arb_log, x);
+  return detail::value_by_ends(arb_log, x);
 }
 inline Ball exp(const Ball& x) {
   return value_of_arb(arb_exp, x);
@@ -154,10 +177,10 @@ inline Ball cos(const Ball& x) {
   return value_of_arb(arb_cos, x);
 }
 inline Ball arcsine(const Ball& x) {
-  return value_of_arb(arb_asin, x);
+  return detail::value_by_ends(arb_asin, x);
 }
 inline Ball arctangent(const Ball& x) {
-  return value_of_arb(arb_atan, x);
+  return detail::value_by_ends(arb_atan, x);
 }
 inline Ball max(const Ball& x, const Ball& y) {
   return value_of_arb(arb_max, x, y);

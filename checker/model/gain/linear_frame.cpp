@@ -163,23 +163,6 @@ LinearValue LinearFrame::scaled(const LinearValue& x, int constant) const {
   return result;
 }
 
-namespace {
-
-/// All x y: from their ends, because [-a, a] times itself, as middles and radii, is twice as wide as it need
-/// be.
-Ball product_of_ends(const Ball& x, const Ball& y, bool is_square) {
-  const Ball a = x.lower() * y.lower();
-  const Ball b = x.lower() * y.upper();
-  const Ball c = x.upper() * y.lower();
-  const Ball d = x.upper() * y.upper();
-  const Ball highest = max(max(a, b), max(c, d));
-  const bool holds_zero = !certainly_positive(x.lower()) && !certainly_positive(-x.upper());
-  const Ball lowest = min(min(a, b), min(c, d));
-  return Ball::hull(!is_square ? lowest : holds_zero ? zero : min(a, d), highest);
-}
-
-}  // namespace
-
 LinearValue LinearFrame::product_of_plain(int x, int y) {
   const LinearValue left = at(x);
   const LinearValue right = at(y);
@@ -189,10 +172,10 @@ LinearValue LinearFrame::product_of_plain(int x, int y) {
   const Ball of_right = base(right);
   LinearValue result;
   if (certainly_equal(left.per_frequency, zero) || certainly_equal(right.per_frequency, zero)) {
-    result.constant = product_of_ends(left.constant, right.constant, x == y);
+    result.constant = x == y ? square(left.constant) : left.constant * right.constant;
     result.per_frequency = left.per_frequency * right.constant + right.per_frequency * left.constant;
   } else {
-    result.constant = product_of_ends(of_left, of_right, x == y);
+    result.constant = x == y ? square(of_left) : of_left * of_right;
   }
   add_deviations(result, left, of_right);
   add_deviations(result, right, of_left);

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -60,6 +62,59 @@ TEST_CASE("a ball has its middle and its radius") {
   CHECK(certainly_equal(one.radius(), zero));
   CHECK(certainly_at_most(one, ball.radius()));
   CHECK(certainly_less(ball.radius(), Ball(1.0 + 0x1p-20)));
+}
+
+TEST_CASE("results of wide balls contain those of points, and little else") {
+  constexpr double kRounding = 0x1p-26;  // of radii
+  test::Random random(71);
+  const auto ends_of = [](const Ball& ball) { return std::array{ball.lower_double(), ball.upper_double()}; };
+  const auto near = [](double value, double ideal, double size) {
+    return std::fabs(value - ideal) <= kRounding * size;
+  };
+  for (std::int64_t i = 0; i < test::effort(2000); ++i) {
+    CAPTURE(i);
+    std::array<double, 4> e{};
+    for (double& end : e) {
+      end = random.uniform(-1.0, 1.0) * std::exp2(-static_cast<double>(random.below(3)));
+    }
+    const Ball x = Ball::hull(Ball(e[0]), Ball(e[1]));
+    const Ball y = Ball::hull(Ball(e[2]), Ball(e[3]));
+    const std::array products{e[0] * e[2], e[0] * e[3], e[1] * e[2], e[1] * e[3]};
+    const auto [least, most] = std::minmax_element(products.begin(), products.end());
+    const auto product = ends_of(x * y);
+    CHECK(near(product[0], *least, 1.0));
+    CHECK(near(product[1], *most, 1.0));
+    const double share = random.uniform(0.0, 1.0);
+    const double of_x = e[0] + share * (e[1] - e[0]);
+    const double of_y = e[2] + random.uniform(0.0, 1.0) * (e[3] - e[2]);
+    CHECK(contains(x * y, Ball(of_x) * Ball(of_y)));
+    const bool holds_zero = e[0] * e[1] <= 0.0;
+    const auto squares = ends_of(square(x));
+    CHECK(near(squares[0], holds_zero ? 0.0 : std::fmin(e[0] * e[0], e[1] * e[1]), 1.0));
+    CHECK(near(squares[1], std::fmax(e[0] * e[0], e[1] * e[1]), 1.0));
+    CHECK(contains(square(x), Ball(of_x) * Ball(of_x)));
+    const double low = std::fmin(std::fabs(e[0]), std::fabs(e[1]));
+    const double high = std::fmax(std::fabs(e[0]), std::fabs(e[1]));
+    const Ball z = Ball::hull(Ball(low), Ball(high));
+    const auto root = ends_of(sqrt(z));
+    CHECK(near(root[0], std::sqrt(z.lower_double()), 1.0));
+    CHECK(near(root[1], std::sqrt(high), 1.0));
+    const auto logarithm = ends_of(log(z));
+    CHECK(near(logarithm[0], std::log(z.lower_double()), 50.0));
+    CHECK(near(logarithm[1], std::log(high), 50.0));
+    const auto angle = ends_of(arctangent(x));
+    CHECK(near(angle[0], std::atan(std::fmin(e[0], e[1])), 1.0));
+    CHECK(near(angle[1], std::atan(std::fmax(e[0], e[1])), 1.0));
+    const auto of_sine = ends_of(arcsine(x));
+    CHECK(near(of_sine[0], std::asin(std::fmin(e[0], e[1])), 2.0));
+    CHECK(near(of_sine[1], std::asin(std::fmax(e[0], e[1])), 2.0));
+  }
+  const Ball beyond = Ball::hull(Ball(-0.5), two);
+  for (const Ball& odd : {sqrt(beyond), log(beyond), arcsine(beyond), log(Ball::hull(zero, one))}) {
+    CHECK(!odd.finite());
+  }
+  CHECK(certainly_not_negative(square(Ball::within(one))));
+  CHECK(!(square(Ball::everything()).finite() || (Ball::everything() * beyond).finite()));
 }
 
 TEST_CASE("decimals and hexadecimal numbers") {

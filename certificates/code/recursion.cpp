@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "analysis/model/code/listing_rounding.hpp"
+#include "analysis/model/code/turned_sample.hpp"
 #include "analysis/model/code/turns.hpp"
 #include "certificates/code/angles.hpp"
 #include "certificates/code/comparisons.hpp"
@@ -200,8 +201,8 @@ class Writer {
         value, fmt::format("atan2({0}*cos({2}) - {1}*sin({2}), {1}*cos({2}) + {0}*sin({2}))", y, x, z));
   }
 
-  /// A line of its own for a wrapped value, which is to stay away from half a turn: next to it, rounding
-  /// would turn it over.
+  /// A line of its own for a wrapped value, or the angle of a sample that is turned back, which is to stay
+  /// away from half a turn: next to it, rounding would turn it over.
   [[nodiscard]] Formula limited_wrap(int value, const std::string& text) {
     if (inlines_) {
       result_.ranges_keep_obligations = false;  // nothing limits it
@@ -314,7 +315,8 @@ class Writer {
     if (instruction.operands[1] >= 0) {
       operands += ", " + formula(instruction.operands[1]).text;
     }
-    return {fmt::format("{}({})", found->name, operands)};
+    const std::string text = fmt::format("{}({})", found->name, operands);
+    return model::code::turned_back_by(*listing_, instruction) ? limited_wrap(value, text) : Formula{text};
   }
 
   // ---- choices

@@ -94,6 +94,8 @@ class ListingMatch {
   [[nodiscard]] std::optional<double> bound(int node) const;
   void find_spans(Objections& objections);
   [[nodiscard]] std::optional<ListedWrap> wrap_of(int place);
+  /// Whether a limit among the formulas keeps the exact value within 3.14 of 0.
+  [[nodiscard]] bool is_away_from_half_turn(int place);
   /// Whether the program keeps the range of an angle, too: steps one way alone have to be larger than what it
   /// is off.
   [[nodiscard]] bool is_kept_when_rounded(const ListedState& state);

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "checker/code/turned_pair.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -226,15 +228,18 @@ std::optional<ListedWrap> ListingMatch::wrap_of(int place) {
   if (!after || !shifts) {
     return std::nullopt;
   }
-  constexpr double kMost = 3.14 + 1e-9;
   const double largest = std::max(
       {std::fabs(before->low), std::fabs(before->high), std::fabs(after->low), std::fabs(after->high)});
-  const bool is_limited = std::any_of(graph_->limits().begin(), graph_->limits().end(), [&](int limit) {
+  return ListedWrap{base, largest, *shifts, is_away_from_half_turn(place)};
+}
+
+bool ListingMatch::is_away_from_half_turn(int place) {
+  constexpr double kMost = 3.14 + 1e-9;
+  return std::any_of(graph_->limits().begin(), graph_->limits().end(), [&](int limit) {
     const std::optional<Span> bounds = bounds_of(limit);
     return bounds && bounds->low >= -kMost && bounds->high <= kMost &&
            number(graph_->at(limit).arguments[0], place);
   });
-  return ListedWrap{base, largest, *shifts, is_limited};
 }
 
 bool ListingMatch::is_kept_by_wraps(int condition) {
@@ -277,6 +282,9 @@ std::optional<ListedAngles> ListingMatch::angles() {
       if (std::optional<ListedWrap> wrap = wrap_of(place)) {
         result.wraps.emplace(place, *std::move(wrap));
       }
+    }
+    if (angle_of_turned_pair(*listing_, place) && is_away_from_half_turn(place)) {
+      result.arcs.emplace(place, Ball::within(Ball(3.14001)));
     }
   }
   const bool are_kept = std::all_of(

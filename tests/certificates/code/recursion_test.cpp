@@ -162,6 +162,21 @@ TEST_CASE(
   CHECK(recursion.ranges.begin()->second.high < 3.1417);
 }
 
+TEST_CASE("the angle of samples that are turned back is kept away from half a turn") {
+  const auto step = [](const std::string& turn) {
+    return recursion_of(parse_listing("veritrack listing 1\nsample r0 f32 a\nsample r1 f32 b\n"
+                                      "state r2 f32:0x0p+0 p\nr3 = cos.f32 r2\nr4 = sin.f32 " +
+                                      turn +
+                                      "\n"
+                                      "r5 = fmul.f32 r1 r3\nr6 = fmul.f32 r0 r4\nr7 = fsub.f32 r5 r6\n"
+                                      "r8 = fmul.f32 r0 r3\nr9 = fmul.f32 r1 r4\nr10 = fadd.f32 r8 r9\n"
+                                      "r11 = atan2.f32 r7 r10\nnext r2 r11\nfrequency r2\n"))
+        .step;
+  };
+  CHECK(step("r2").find("stays_within(r3, -3.14, 3.14)") != std::string::npos);
+  CHECK(step("r0").find("stays_within") == std::string::npos);  // by two angles: it is no turn
+}
+
 TEST_CASE("what is not understood is refused, and what is said names it") {
   // One-sided: a difference may be more than half a turn.
   CHECK(refusal("r3 = fsub.f32 r1 r2\n"

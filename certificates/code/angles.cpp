@@ -41,6 +41,7 @@ bool Angles::keeps_ranges() {
   ranges_.clear();
   bases_.clear();
   steps_.clear();
+  rests_.clear();
   for (const trackers::code::State& state : listing_->states) {
     is_angle_[state.input] = turns_->is_wrapped(state.next);
     if (is_angle_[state.input]) {
@@ -87,21 +88,65 @@ bool Angles::is_angular(int value) {
 
 std::optional<Angles::Rest> Angles::rest_of(int value) {
   value = turns_->plain(value);
+  const auto known = rests_.find(value);
+  return known != rests_.end() ? known->second : rests_[value] = rest_by_rules(value);
+}
+
+std::optional<Angles::Rest> Angles::rest_by_rules(int value) {
   if (is_angular(value)) {
-    return Rest{value, {}};
+    return Rest{value, -1, {}, 0};
   }
   const Instruction& sum = at(value);
+  if (sum.operation == Operation::select) {
+    return rest_of_choice(value);
+  }
   if (sum.operation != Operation::fadd && sum.operation != Operation::fsub) {
     return std::nullopt;
   }
-  const bool subtracts = sum.operation == Operation::fsub;
+  const bool is_difference = sum.operation == Operation::fsub;
   if (std::optional<Rest> rest = rest_of(sum.operands[0])) {
-    rest->terms.emplace_back(sum.operands[1], subtracts);
+    rest->terms.push_back({sum.operands[1], is_difference, false});
     return rest;
   }
-  std::optional<Rest> rest = subtracts ? std::nullopt : rest_of(sum.operands[1]);
+  if (is_difference) {
+    return rest_of_difference(sum);
+  }
+  std::optional<Rest> rest = rest_of(sum.operands[1]);
   if (rest) {
-    rest->terms.emplace_back(sum.operands[0], false);
+    rest->terms.push_back({sum.operands[0], false, false});
+  }
+  return rest;
+}
+
+/// Both branches are the same angle and more.
+std::optional<Angles::Rest> Angles::rest_of_choice(int value) {
+  const Instruction& choice = at(value);
+  int condition = choice.operands[0];
+  while (at(condition).operation == Operation::bit_xor &&
+         at(at(condition).operands[1]).operation == Operation::constant) {
+    condition = at(condition).operands[0];
+  }
+  const std::optional<Rest> yes = rest_of(choice.operands[1]);
+  const std::optional<Rest> no = yes ? rest_of(choice.operands[2]) : std::nullopt;
+  constexpr int kMostChoices = 8;  // their formulas have all branches of branches
+  const bool is_one_angle = no && yes->angle == no->angle && yes->arc < 0 && no->arc < 0 &&
+                            yes->choices + no->choices < kMostChoices;
+  return is_one_angle && at(condition).operation == Operation::fcmp
+             ? std::optional(Rest{yes->angle, -1, {{value, false, true}}, yes->choices + no->choices + 1})
+             : std::nullopt;
+}
+
+/// The angle of a point, less an angle and more.
+std::optional<Angles::Rest> Angles::rest_of_difference(const Instruction& difference) {
+  const int arc = turns_->plain(difference.operands[0]);
+  std::optional<Rest> rest =
+      at(arc).operation == Operation::atan2 ? rest_of(difference.operands[1]) : std::nullopt;
+  if (!rest || rest->arc >= 0) {
+    return std::nullopt;
+  }
+  rest->arc = arc;
+  for (Term& term : rest->terms) {
+    term.is_subtracted = !term.is_subtracted;
   }
   return rest;
 }
@@ -148,9 +193,13 @@ std::optional<Range> Angles::range(int value) {
     if (!before) {
       return std::nullopt;
     }
-    const double low = direction_ == Steps::forward ? kLeastStep : -std::numbers::pi;
-    const double high = direction_ == Steps::backward ? -kLeastStep : std::numbers::pi;
-    of_base = Range{before->low + low - kWrapSlack, before->high + high + kWrapSlack};
+    const bool is_step = rest->arc < 0;
+    const double low = is_step && direction_ == Steps::forward ? kLeastStep : -std::numbers::pi;
+    const double high = is_step && direction_ == Steps::backward ? -kLeastStep : std::numbers::pi;
+    const std::optional<Range> of_arc = is_step ? Range{} : range_of(rest->arc);
+    of_base = is_step ? Range{before->low + low, before->high + high}
+                      : Range{of_arc->low - before->high + low, of_arc->high - before->low + high};
+    of_base = Range{of_base->low - kWrapSlack, of_base->high + kWrapSlack};
     steps_.insert(base);
   }
   bases_[base] = *of_base;

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "analysis/model/code/turns.hpp"
@@ -14,10 +13,18 @@ namespace veritrack::certificates::code {
 
 class Angles {
  public:
-  /// What is left of a sum when one angle is taken out of it: the angle and the other terms with their signs.
+  struct Term {
+    int value = -1;
+    bool is_subtracted = false;
+    bool is_choice = false;  ///< the value selects: the term is what is left of the branch that is taken
+  };
+  /// What is left of a sum when one angle is taken out of it: the angle and the other terms. Where it is
+  /// subtracted from the angle of a point, both are taken out.
   struct Rest {
     int angle = -1;
-    std::vector<std::pair<int, bool>> terms;  ///< and whether they are subtracted
+    int arc = -1;  ///< the arc tangent that the angle is subtracted from, or none
+    std::vector<Term> terms;
+    int choices = 0;  ///< among the terms, and among those of their branches
   };
 
   /// Both must outlive it. Throws NoRecursion for an angle whose wraps keep it in no range.
@@ -53,6 +60,9 @@ class Angles {
   [[nodiscard]] bool keeps_ranges();
   [[nodiscard]] bool widen_ranges();
   [[nodiscard]] bool is_angular(int value);
+  [[nodiscard]] std::optional<Rest> rest_by_rules(int value);
+  [[nodiscard]] std::optional<Rest> rest_of_choice(int value);
+  [[nodiscard]] std::optional<Rest> rest_of_difference(const trackers::code::Instruction& difference);
   [[nodiscard]] std::optional<model::code::Range> range_of(int value);
   [[nodiscard]] bool is_summand(int state, int sum) const;
 
@@ -60,6 +70,7 @@ class Angles {
   model::code::Turns* turns_;
   std::map<int, bool> is_angle_;  ///< of the inputs
   std::map<int, model::code::Range> ranges_, bases_;
+  std::map<int, std::optional<Rest>> rests_;
   std::set<int> steps_;  ///< bases that are an angle and a step
   Steps direction_ = Steps::either_way;
 };

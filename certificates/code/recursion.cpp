@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "analysis/model/code/listing_rounding.hpp"
+#include "analysis/model/code/turned_sample.hpp"
 #include "analysis/model/code/turns.hpp"
 #include "certificates/code/angles.hpp"
 #include "certificates/code/comparisons.hpp"
@@ -147,11 +148,40 @@ class Writer {
   [[nodiscard]] Formula angle(int value) {
     if (!turns_.is_wrapped(value)) {
       angles_.require_wraps(value);
-      return formula(value);
+      return unwrapped(value);
     }
     const int base = turns_.without_turns(value);
     limit_step(base);
-    return formula(base);
+    return unwrapped(base);
+  }
+
+  /// An angle and what a choice adds to it: that is a number.
+  [[nodiscard]] Formula unwrapped(int value) {
+    const std::optional<Angles::Rest> rest = angles_.rest_of(value);
+    if (!rest || rest->choices == 0 || rest->arc >= 0) {
+      return formula(value);
+    }
+    return {angle(rest->angle).as_term() + " + " + rest_formula(*rest).as_factor(), Formula::Binds::sum};
+  }
+
+  [[nodiscard]] Formula rest_formula(const Angles::Rest& rest) {
+    Formula sum{"0"};
+    for (std::size_t i = 0; i < rest.terms.size(); ++i) {
+      const Angles::Term& term = rest.terms[i];
+      const auto branch = [&](std::size_t k) {
+        return rest_formula(*angles_.rest_of(at(term.value).operands[k]));
+      };
+      const Formula part = term.is_choice ? chosen_of(
+                                                at(term.value).operands[0], [&] { return branch(1); },
+                                                [&] { return branch(2); })
+                                          : formula(term.value);
+      if (i == 0) {
+        sum = term.is_subtracted ? Formula{"-" + part.as_factor(), Formula::Binds::sum} : part;
+      } else {
+        sum = {sum.as_term() + (term.is_subtracted ? " - " : " + ") + part.as_factor(), Formula::Binds::sum};
+      }
+    }
+    return sum;
   }
 
   /// The range of a wrapped value rests on steps of less than half a turn.
@@ -160,16 +190,11 @@ class Writer {
     if (!rest || rest->terms.empty() || !limits_.insert(base).second) {
       return;
     }
-    std::string text;
-    for (const auto& [term, subtracts] : rest->terms) {
-      const Formula part = formula(term);
-      text += text.empty() ? (subtracts ? "-" + part.as_factor() : part.as_term())
-                           : (subtracts ? " - " + part.as_factor() : " + " + part.as_term());
-    }
-    const bool is_forward = angles_.steps() == Angles::Steps::forward;
-    const bool is_backward = angles_.steps() == Angles::Steps::backward;
+    const bool is_forward = rest->arc < 0 && angles_.steps() == Angles::Steps::forward;
+    const bool is_backward = rest->arc < 0 && angles_.steps() == Angles::Steps::backward;
     const std::string least = fmt::format("{}", Angles::kLeastStep);
-    lines_.push_back(fmt::format("{} = stays_within({}, {}, {})", free_name("turn"), text,
+    const std::string step = rest_formula(*rest).text;
+    lines_.push_back(fmt::format("{} = stays_within({}, {}, {})", free_name("turn"), step,
                                  is_forward ? least : "-pi", is_backward ? "-" + least : "pi"));
     if (turns_.is_wrapped(rest->angle)) {
       limit_step(turns_.without_turns(rest->angle));
@@ -200,8 +225,8 @@ class Writer {
         value, fmt::format("atan2({0}*cos({2}) - {1}*sin({2}), {1}*cos({2}) + {0}*sin({2}))", y, x, z));
   }
 
-  /// A line of its own for a wrapped value, which is to stay away from half a turn: next to it, rounding
-  /// would turn it over.
+  /// A line of its own for a wrapped value, or the angle of a sample that is turned back, which is to stay
+  /// away from half a turn: next to it, rounding would turn it over.
   [[nodiscard]] Formula limited_wrap(int value, const std::string& text) {
     if (inlines_) {
       result_.ranges_keep_obligations = false;  // nothing limits it
@@ -314,7 +339,8 @@ class Writer {
     if (instruction.operands[1] >= 0) {
       operands += ", " + formula(instruction.operands[1]).text;
     }
-    return {fmt::format("{}({})", found->name, operands)};
+    const std::string text = fmt::format("{}({})", found->name, operands);
+    return model::code::turned_back_by(*listing_, instruction) ? limited_wrap(value, text) : Formula{text};
   }
 
   // ---- choices

@@ -161,9 +161,9 @@ std::vector<double> bounds_of(const trackers::code::Listing& listing, const mode
 }
 
 /// What rounding adds to a step of the program of [code].
-model::RoundingOfStep rounding_of(const code::CompiledCode& code) {
-  return [&code](const std::vector<Interval>& states, const Interval& sample) {
-    model::code::StepRanges ranges{states, sample, code.recursion.bases, nullptr, 0.0};
+model::RoundingOfStep rounding_of(const code::CompiledCode& code, double least_sample) {
+  return [&code, least_sample](const std::vector<Interval>& states, const Interval& sample) {
+    model::code::StepRanges ranges{states, sample, code.recursion.bases, nullptr, least_sample};
     for (std::size_t i = 0; i < states.size(); ++i) {
       const auto angle = code.recursion.ranges.find(code.listing.states[i].input);
       if (angle != code.recursion.ranges.end()) {
@@ -192,14 +192,14 @@ model::RoundingOfStep rounding_of(const language::WrittenListing& written, const
 model::SetQuestion question_of(const Model& model, const ModelTables& tables, bool by_structure) {
   const ModelAssumptions& assume = tables.assume;
   model::SetQuestion question{.tone = proposed_tone(model, assume), .tracker = proved_model(model, assume)};
+  // With rounding, no noise beyond that share of the amplitude is claimed.
+  const double least_sample = (rigor::Interval(1.0 - model::kMostNoise) * assume.amplitude[0].value).lower();
   if (tables.model.compiled && tables.model.compiled->recursion.ranges_keep_obligations) {
-    question.rounding = rounding_of(*tables.model.compiled);
+    question.rounding = rounding_of(*tables.model.compiled, least_sample);
     question.turned = tables.model.compiled->arc_tangent ? tables.model.compiled->arc_tangent->error : 0.0;
   }
   if (model.written) {
-    const rigor::Interval share(1.0 - model::kMostNoise);
-    question.rounding =
-        rounding_of(*model.written, model.recursion.is_angle, (share * assume.amplitude[0].value).lower());
+    question.rounding = rounding_of(*model.written, model.recursion.is_angle, least_sample);
   }
   question.tone.filter = by_structure && bounds_covariance(model, tables) ? question.tracker.filter : nullptr;
   if (is_constant_in_range(assume)) {

@@ -165,7 +165,8 @@ bool ListingMatch::congruent_by_rules(int node, int place) {
   if (formula.state >= 0 && is_angle_[static_cast<std::size_t>(formula.state)]) {
     return place == listing_->states[static_cast<std::size_t>(formula.state)].input;
   }
-  return number(node, place) || is_sum(node, place, true) || is_whole_multiple(node, place);
+  return number(node, place) || is_sum(node, place, true) || is_whole_multiple(node, place) ||
+         is_choice_of_sums(terms_of_node(node), place, -1);
 }
 
 /// Turns stay turns in k*angle with a whole number k.

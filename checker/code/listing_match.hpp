@@ -78,6 +78,12 @@ class ListingMatch {
   /// `is_opposite`: the node is minus the product.
   [[nodiscard]] bool same_factors(int node, const std::vector<int>& places, bool is_opposite = false);
   [[nodiscard]] bool is_sum(int node, int place, bool modulo_turns);
+  /// Whether the sum of the nodes, and of the angle if there is one, is a register that chooses between sums:
+  /// one of the nodes is a choice by the same comparison. Modulo whole turns where there is no angle.
+  [[nodiscard]] bool is_choice_of_sums(const std::vector<Signed>& nodes, int place, int angle);
+  [[nodiscard]] bool is_sum_and_angle(const std::vector<Signed>& nodes, int place, int angle);
+  /// Whether `if` and the condition of a select ask the same; and then whether the opposite.
+  [[nodiscard]] std::optional<bool> is_opposite_of(const FormulaNode& choice, int condition);
   [[nodiscard]] bool is_product(int node, int place);
   /// A term or factor whose sign is apart.
   [[nodiscard]] bool same_size(int node, int place);
@@ -88,12 +94,16 @@ class ListingMatch {
   [[nodiscard]] std::optional<Span> span_by_rules(int place);
   [[nodiscard]] std::optional<Span> span_of_term(const Signed& term);
   [[nodiscard]] std::optional<Span> span_of_sum(int place);
+  [[nodiscard]] std::optional<Span> span_of_choice(int place);
   /// The limits of a sum of at most half a turn.
   [[nodiscard]] std::optional<Span> limits_of(const std::vector<Signed>& terms);
   [[nodiscard]] std::optional<Span> bounds_of(int limit) const;
+  [[nodiscard]] std::optional<Span> step_bounds_of(int limit) const;
   [[nodiscard]] std::optional<double> bound(int node) const;
   void find_spans(Objections& objections);
   [[nodiscard]] std::optional<ListedWrap> wrap_of(int place);
+  /// Whether a limit among the formulas keeps the exact value within 3.14 of 0.
+  [[nodiscard]] bool is_away_from_half_turn(int place);
   /// Whether the program keeps the range of an angle, too: steps one way alone have to be larger than what it
   /// is off.
   [[nodiscard]] bool is_kept_when_rounded(const ListedState& state);

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "checker/code/turned_pair.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -84,7 +86,7 @@ std::optional<Span> ListingMatch::span_by_rules(int place) {
   const std::optional<Span> a = span(operation.operands[first]);
   const std::optional<Span> b = a || is_sum ? span(operation.operands[first + 1]) : std::nullopt;
   if (!a || !b) {
-    return is_sum ? span_of_sum(place) : std::nullopt;
+    return is_sum ? span_of_sum(place) : span_of_choice(place);
   }
   return operation.is("select") ? if_finite(hull(*a, *b))
          : operation.is("fmul") ? if_finite(times(*a, *b))
@@ -130,6 +132,19 @@ std::optional<Span> ListingMatch::span_of_sum(int place) {
   return std::nullopt;
 }
 
+/// An angle, and a step that is chosen, which the formulas limit.
+std::optional<Span> ListingMatch::span_of_choice(int place) {
+  for (const auto& [angle, range] : state_spans_) {
+    for (const int limit : graph_->limits()) {
+      const std::optional<Span> bounds = step_bounds_of(limit);
+      if (bounds && is_choice_of_sums(terms_of_node(graph_->at(limit).arguments[0]), place, angle)) {
+        return if_finite({range.low + bounds->low, range.high + bounds->high});
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<double> ListingMatch::bound(int node) const {
   bool is_negative = false;
   while (graph_->at(node).kind == RangeKind::negate) {
@@ -162,13 +177,20 @@ std::optional<Span> ListingMatch::bounds_of(int limit) const {
   return low && high && *low <= *high ? std::optional(Span{*low, *high}) : std::nullopt;
 }
 
-std::optional<Span> ListingMatch::limits_of(const std::vector<Signed>& terms) {
+/// Those of at most half a turn.
+std::optional<Span> ListingMatch::step_bounds_of(int limit) const {
   constexpr double kHalfTurn = std::numbers::pi + 1e-9;
+  const std::optional<Span> bounds = bounds_of(limit);
+  return bounds && bounds->low >= -kHalfTurn && bounds->high <= kHalfTurn
+             ? std::optional(slightly_wider(*bounds))
+             : std::nullopt;
+}
+
+std::optional<Span> ListingMatch::limits_of(const std::vector<Signed>& terms) {
   for (const int limit : graph_->limits()) {
-    const std::optional<Span> bounds = bounds_of(limit);
-    if (bounds && bounds->low >= -kHalfTurn && bounds->high <= kHalfTurn &&
-        same_terms(terms_of_node(graph_->at(limit).arguments[0]), terms, false)) {
-      return slightly_wider(*bounds);
+    const std::optional<Span> bounds = step_bounds_of(limit);
+    if (bounds && same_terms(terms_of_node(graph_->at(limit).arguments[0]), terms, false)) {
+      return bounds;
     }
   }
   return std::nullopt;
@@ -226,15 +248,18 @@ std::optional<ListedWrap> ListingMatch::wrap_of(int place) {
   if (!after || !shifts) {
     return std::nullopt;
   }
-  constexpr double kMost = 3.14 + 1e-9;
   const double largest = std::max(
       {std::fabs(before->low), std::fabs(before->high), std::fabs(after->low), std::fabs(after->high)});
-  const bool is_limited = std::any_of(graph_->limits().begin(), graph_->limits().end(), [&](int limit) {
+  return ListedWrap{base, largest, *shifts, is_away_from_half_turn(place)};
+}
+
+bool ListingMatch::is_away_from_half_turn(int place) {
+  constexpr double kMost = 3.14 + 1e-9;
+  return std::any_of(graph_->limits().begin(), graph_->limits().end(), [&](int limit) {
     const std::optional<Span> bounds = bounds_of(limit);
     return bounds && bounds->low >= -kMost && bounds->high <= kMost &&
            number(graph_->at(limit).arguments[0], place);
   });
-  return ListedWrap{base, largest, *shifts, is_limited};
 }
 
 bool ListingMatch::is_kept_by_wraps(int condition) {
@@ -277,6 +302,9 @@ std::optional<ListedAngles> ListingMatch::angles() {
       if (std::optional<ListedWrap> wrap = wrap_of(place)) {
         result.wraps.emplace(place, *std::move(wrap));
       }
+    }
+    if (angle_of_turned_pair(*listing_, place) && is_away_from_half_turn(place)) {
+      result.arcs.emplace(place, Ball::within(Ball(3.14001)));
     }
   }
   const bool are_kept = std::all_of(

@@ -37,7 +37,7 @@ class StepErrors {
  public:
   StepErrors(const CodeListing& listing, const ListedAngles& angles, const std::vector<Ball>& states,
              const Ball& sample)
-      : listing_(&listing), angles_(&angles) {
+      : listing_(&listing), angles_(&angles), limits_(angles.arcs) {
     for (std::size_t i = 0; i < listing.states.size(); ++i) {
       const int input = listing.states[i].input;
       const auto angle = angles.states.find(input);

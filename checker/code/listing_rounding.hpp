@@ -50,6 +50,7 @@ struct ListedAngles {
   std::map<int, Ball> states;           ///< by the register of an angle
   std::map<int, ListedNumber> numbers;  ///< by register, which is an input
   std::vector<ListedLimit> limits;
+  std::map<int, Ball> arcs;  ///< where exact angles of samples that are turned back are shown to be
   std::vector<std::pair<int, int>> ordered;  ///< limits of clamps: the first has to be less
   Ball least_sample;                         ///< the vector of two samples is at least as long
 };

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "checker/code/code_certificate.hpp"
 #include "checker/code/written_formulas.hpp"
@@ -216,19 +217,25 @@ void verify_by_tubes(const Tree& certificate, const ModelDesign& design, const T
   check_claims(certificate, by_tubes.required(), check, result);
 }
 
+/// With rounding, no noise is claimed that leaves less of a sample.
+Ball least_sample_of(const Ball& amplitude) {
+  return ((one - Ball(kMostRoundedNoise)) * amplitude).lower();
+}
+
 /// Empty where obligations rest on more than wraps.
-RoundingOfStep rounding_of(const CheckedCode& code) {
+RoundingOfStep rounding_of(CheckedCode code, const Ball& amplitude) {
   if (!code.angles) {
     return {};
   }
-  return [code](const std::vector<Ball>& states, const Ball& sample) {
+  code.angles->least_sample = least_sample_of(amplitude);
+  return [code = std::move(code)](const std::vector<Ball>& states, const Ball& sample) {
     return listing_rounding(code.listing, *code.angles, states, sample);
   };
 }
 
 RoundingOfStep rounding_of(const Tree& model, ListedFormat format, const Ball& amplitude) {
   WrittenFormulas written = written_formulas(model, format);
-  written.known.least_sample = ((one - Ball(kMostRoundedNoise)) * amplitude).lower();
+  written.known.least_sample = least_sample_of(amplitude);
   return [written](const std::vector<Ball>& states, const Ball& sample) {
     return listing_rounding(written.listing, written.known, states, sample);
   };
@@ -251,7 +258,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   RoundingOfStep rounding;
   if (tree.find("code") != nullptr) {
     const CheckedCode code = check_code(tree, objections);
-    rounding = rounding_of(code);
+    rounding = rounding_of(code, design.least_amplitude);
     design.turned = code.turned;
     result.parts.push_back({"the recursion is that of the listing", objections});
     if (!objections.empty()) {

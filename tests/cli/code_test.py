@@ -50,6 +50,24 @@ class Code(unittest.TestCase):
                       "it, it would be ", document)
         self.assertIn("There `pll.speed` stands still where less than 0.00024 is added to it", document)
 
+    def test_a_step_that_a_condition_chooses_is_certified(self):
+        shutil.copy(ROOT / "tests" / "lift" / "functions" / "optional_result.cpp", self.folder)
+        design = self.folder / "optional.toml"
+        design.write_text("name = 'optional'\ntracker = 'model'\n[code]\nfiles = ['optional_result.cpp']\n"
+                          "[assume]\namplitude = 1\nfrequency = [0.2, 0.3]\nnoise = 0.01\n")
+        genuine = self.certificate(design)
+        tolerated = [float(claim["noise"]) for claim in genuine["claims"] if "noise" in claim]
+        self.assertGreater(max(tolerated), 0.3)
+        # With more noise a sample may be below the floor, where the loop goes on without it.
+        self.assertLess(max(tolerated), 0.8)
+        step = genuine["design"]["model"]["step"]
+        for before, after in (("if(r1 < ", "if(r1 > "), ("angle + if(", "angle - if(")):
+            with self.subTest(after):
+                changed = json.loads(json.dumps(genuine))
+                changed["design"]["model"]["step"] = step.replace(before, after)
+                self.assertNotEqual(changed, genuine)
+                self.assertIn(self.verdict(changed), (2, 3))
+
     def test_forgeries_are_refused(self):
         genuine = self.certificate()
         self.assertEqual(self.verdict(genuine), 0)

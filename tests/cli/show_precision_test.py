@@ -3,6 +3,7 @@ import ctypes
 import ctypes.util
 import json
 import math
+import os
 import pathlib
 import random
 import re
@@ -141,36 +142,60 @@ class InOneFormat(unittest.TestCase):
                     self.assertEqual(list(state), [value.value for value in formulas.step(before, sample)])
                 self.assertLess(abs(library.tracker_frequency(state) - omega), 0.05)
 
+    def certified(self, text, parameters, folder):
+        """Certificates of a design in single precision, and of the C that is printed for it."""
+        (folder / "text.toml").write_text(text)
+        shown = run("show", folder / "text.toml", "--language", "c", "--precision", "single")
+        (folder / "tracker.c").write_text(shown.stdout)
+        names = ", ".join(name.split()[-1] for name in parameters.split(","))
+        (folder / "harness.c").write_text(f"""#include "tracker.c"
+static tracker_t tracker;
+void setup(void) {{ tracker_init(&tracker); }}
+void step({parameters}) {{ tracker_step(&tracker, {names}); }}
+float frequency(void) {{ return tracker_frequency(&tracker); }}
+""")
+        (folder / "code.toml").write_text("name = 'the printed C'\ntracker = 'model'\n\n[code]\nfiles = ['harness.c']\n\n" +
+                                          text[text.index("[assume]"):])
+        certificates = {}
+        for design, begin in (("text", "In single precision (IEEE 754 binary32) of the formulas"),
+                              ("code", "In IEEE 754 arithmetic of the listing")):
+            result = run("certify", folder / f"{design}.toml", "--out", folder / design)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("VERIFIED", result.stdout + result.stderr)
+            certificates[design] = json.loads((folder / design / "certificate.json").read_text())
+            self.assertIn("rounding", certificates[design]["gains"])
+            self.assertIn(begin, (folder / design / "certificate.md").read_text())
+        return certificates
+
+    def assert_same_limits(self, certificates):
+        limits = {design: [float(claim[key]) for claim in certificate["claims"]
+                           for key in ("noise", "reach") if key in claim]
+                  for design, certificate in certificates.items()}
+        self.assertEqual([len(each) for each in limits.values()], [2, 2])
+        for text_limit, code_limit in zip(limits["text"], limits["code"]):
+            self.assertAlmostEqual(text_limit / code_limit, 1.0, delta=0.005)
+
     def test_a_design_of_the_printed_c_is_certified_to_the_same_bounds(self):
         text = MODELS[0].read_text().replace("frequency = [0.2, 0.5]", "frequency = [0.3, 0.3001]")
         text = text.replace("[assume]", "arithmetic = 'binary32'\n\n[assume]")
+        with tempfile.TemporaryDirectory() as folder:
+            self.assert_same_limits(self.certified(text, "float y", pathlib.Path(folder)))
+
+    def test_so_is_one_that_turns_its_samples_back(self):
+        text = (ROOT / "designs" / "models" / "odrive-pll-in-single-precision.toml").read_text()
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            (folder / "text.toml").write_text(text)
-            shown = run("show", folder / "text.toml", "--language", "c", "--precision", "single")
-            (folder / "tracker.c").write_text(shown.stdout)
-            (folder / "harness.c").write_text("""#include "tracker.c"
-static tracker_t tracker;
-void setup(void) { tracker_init(&tracker); }
-void step(float y) { tracker_step(&tracker, y); }
-float frequency(void) { return tracker_frequency(&tracker); }
-""")
-            (folder / "code.toml").write_text(
-                "name = 'the printed C'\ntracker = 'model'\n\n[code]\nfiles = ['harness.c']\n\n" +
-                text[text.index("[assume]"):])
-            limits = {}
-            for design, begin in (("text", "In single precision (IEEE 754 binary32) of the formulas"),
-                                  ("code", "In IEEE 754 arithmetic of the listing")):
-                result = run("certify", folder / f"{design}.toml", "--out", folder / design)
-                self.assertEqual(result.returncode, 0, result.stderr)
-                certificate = json.loads((folder / design / "certificate.json").read_text())
-                self.assertIn("rounding", certificate["gains"])
-                self.assertIn(begin, (folder / design / "certificate.md").read_text())
-                limits[design] = [float(claim[key]) for claim in certificate["claims"]
-                                  for key in ("noise", "reach") if key in claim]
-            self.assertEqual([len(each) for each in limits.values()], [2, 2])
-            for text_limit, code_limit in zip(limits["text"], limits["code"]):
-                self.assertAlmostEqual(text_limit / code_limit, 1.0, delta=0.005)
+            certificates = self.certified(text, "float alpha, float beta", folder)
+            self.assert_same_limits(certificates)
+            forged = certificates["code"]
+            forged["design"]["model"]["step"] = forged["design"]["model"]["step"].replace(
+                "stays_within(r5, -3.14, 3.14)", "stays_within(r5, -3.1415, 3.1415)")
+            self.assertNotEqual(forged, json.loads((folder / "code" / "certificate.json").read_text()))
+            (folder / "forged.json").write_text(json.dumps(forged))
+            result = subprocess.run([os.environ["VERITRACK_VERIFY"], folder / "forged.json"], capture_output=True,
+                                    text=True, check=False)
+            self.assertIn(result.returncode, (2, 3))
+            self.assertNotIn("malformed", result.stdout + result.stderr)
 
     def test_double_precision_and_what_is_refused(self):
         double = run("show", MODELS[0], "--language", "c", "--precision", "double")

@@ -487,6 +487,13 @@ class Evaluation {
     }
   }
 
+  /// Of the exact angle of a sample that is turned back: the recursion of a code has that limit.
+  [[nodiscard]] Interval limit_of_arc(int place) const {
+    const auto limit = limits_.find(place);
+    const double most = ranges_->facts == nullptr ? kMostOfWrapped : kInfinity;
+    return limit != limits_.end() ? limit->second : Interval::from_bounds(-most, most);
+  }
+
   /// The angle of a point turns by no more than asin(off / distance), at most pi/2 times that.
   [[nodiscard]] Computed arc(const Instruction& instruction) {
     constexpr double kTwoPlaces = 4.0;
@@ -496,17 +503,17 @@ class Evaluation {
     const double most = std::max(rigor::pi().upper(), is_near ? listing_->near_arc_tangent.largest : 0.0);
     const Interval half_turns = Interval::from_bounds(-most, most);
     const int place = static_cast<int>(&instruction - listing_->instructions.data());
-    const auto limit = limits_.find(place);
-    const auto turn = limit != limits_.end() && std::isfinite(y.error) && std::isfinite(x.error)
+    const Interval limit = limit_of_arc(place);
+    const auto turn = std::isfinite(y.error) && std::isfinite(x.error)
                           ? turned_back_by(*listing_, instruction)
                           : std::nullopt;
     // Away from half a turn, where it jumps.
-    if (turn && rigor::magnitude(limit->second) <= kMostOfWrapped) {
+    if (turn && rigor::magnitude(limit) <= kMostOfWrapped) {
       const Computed t = value(*turn);
       const double error = error_of_turned_sample(
           instruction.format, t.error, error_of_sine(instruction.format, around(t)), ranges_->least_sample);
       constexpr double kNearest = 1e-3;
-      return error < kNearest ? rounded(instruction.format, limit->second, error, kTwoPlaces) : Computed{};
+      return error < kNearest ? rounded(instruction.format, limit, error, kTwoPlaces) : Computed{};
     }
     if (y.error == 0.0 && x.error == 0.0) {
       return rounded(instruction.format, half_turns, 0.0, kTwoPlaces);

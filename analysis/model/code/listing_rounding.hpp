@@ -53,8 +53,8 @@ struct StepRanges {
   double least_sample = 0.0;            ///< at most the length of the vector of two samples
 };
 
-/// Differences of angles that are used as numbers are assumed to stay within this, rad: then a wrap does not
-/// tear them.
+/// Differences of angles that are used as numbers, and in a listing of code the angles of samples that are
+/// turned back, are assumed to stay within this, rad: then a wrap or the jump of atan2 does not tear them.
 inline constexpr double kMostOfWrapped = 3.14;
 
 /// For operations of IEEE 754, each rounded to nearest, products and sums fused or not, results below the

@@ -162,6 +162,59 @@ TEST_CASE(
   CHECK(recursion.ranges.begin()->second.high < 3.1417);
 }
 
+TEST_CASE("a step that is chosen is added to its angle; an angle that is set is refused") {
+  const auto lines = [](const std::string& branch) {
+    std::string text =
+        "r3 = fadd.f32 r1 r2\nr4 = fcmp.oge.f32 r0 f32:0x1p-1\nr5 = fadd.f32 r3 r0\n"
+        "r6 = select.f32 r4 " +
+        branch + " r5\n" +
+        "r7 = fcmp.ogt.f32 r6 f32:0x1.921fb6p+1\n"
+        "r8 = fadd.f32 r6 f32:-0x1.921fb6p+2\n"
+        "r9 = select.f32 r7 r8 r6\n"
+        "r10 = fcmp.olt.f32 r9 f32:-0x1.921fb6p+1\n"
+        "r11 = fadd.f32 r9 f32:0x1.921fb6p+2\n"
+        "r12 = select.f32 r10 r11 r9\n"
+        "next r1 r12\nnext r2 r2\nfrequency r2\n";
+    return text;
+  };
+  CHECK(made(lines("r3")).step ==
+        "turn1 = stays_within(if(y < 0.5, w + y, w), -pi, pi)\n"
+        "theta' = theta + if(y < 0.5, w + y, w)\n"
+        "w' = w\n");
+  CHECK(refusal(lines("f32:0x0p+0")).find("is not itself and a step") != std::string::npos);
+  CHECK(refusal(lines("r2")).find("is not itself and a step") != std::string::npos);
+}
+
+TEST_CASE("the angle of a point less an angle and a step is wrapped, where a line limits the step") {
+  const Recursion recursion = recursion_of(parse_listing(
+      "veritrack listing 1\nsample r0 f32 a\nsample r1 f32 b\nstate r2 f32:0x0p+0 p\nstate r3 f32:0x0p+0 v\n"
+      "r4 = atan2.f32 r1 r0\nr5 = fadd.f32 r2 r3\nr6 = fsub.f32 r4 r5\n"
+      "r7 = fmul.f32 r6 f32:0x1.45f306p-3\nr8 = rint.f32 r7\nr9 = fmul.f32 r8 f32:0x1.921fb6p+2\n"
+      "r10 = fsub.f32 r6 r9\n"
+      "r11 = fmul.f32 r5 f32:0x1.45f306p-3\nr12 = rint.f32 r11\nr13 = fmul.f32 r12 f32:0x1.921fb6p+2\n"
+      "r14 = fsub.f32 r5 r13\n"
+      "r15 = fmul.f32 r10 f32:0x1p-3\n"
+      "next r2 r14\nnext r3 r15\nfrequency r3\n"));
+  CHECK(recursion.step.find("stays_within(-v, -pi, pi)") != std::string::npos);
+  CHECK(recursion.step.find("atan2(b*cos(") != std::string::npos);
+  CHECK(recursion.step.find("stays_within(v, -pi, pi)") != std::string::npos);
+}
+
+TEST_CASE("the angle of samples that are turned back is kept away from half a turn") {
+  const auto step = [](const std::string& turn) {
+    return recursion_of(parse_listing("veritrack listing 1\nsample r0 f32 a\nsample r1 f32 b\n"
+                                      "state r2 f32:0x0p+0 p\nr3 = cos.f32 r2\nr4 = sin.f32 " +
+                                      turn +
+                                      "\n"
+                                      "r5 = fmul.f32 r1 r3\nr6 = fmul.f32 r0 r4\nr7 = fsub.f32 r5 r6\n"
+                                      "r8 = fmul.f32 r0 r3\nr9 = fmul.f32 r1 r4\nr10 = fadd.f32 r8 r9\n"
+                                      "r11 = atan2.f32 r7 r10\nnext r2 r11\nfrequency r2\n"))
+        .step;
+  };
+  CHECK(step("r2").find("stays_within(r3, -3.14, 3.14)") != std::string::npos);
+  CHECK(step("r0").find("stays_within") == std::string::npos);  // by two angles: it is no turn
+}
+
 TEST_CASE("what is not understood is refused, and what is said names it") {
   // One-sided: a difference may be more than half a turn.
   CHECK(refusal("r3 = fsub.f32 r1 r2\n"

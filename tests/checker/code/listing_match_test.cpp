@@ -235,6 +235,41 @@ TEST_CASE("forgeries of a difference of angles are refused") {
        {"the branch for what is no number", in_listing("fcmp.uno.f32", "fcmp.ord.f32")}});
 }
 
+/// Two channels: the angle of the samples, turned back by that of the loop.
+CodeDesign turned_back() {
+  return {
+      "veritrack listing 1\nsample r0 f32 a\nsample r1 f32 b\nstate r2 f32:0x0p+0 w\n"
+      "r3 = cos.f32 r2\nr4 = sin.f32 r2\n"
+      "r5 = fmul.f32 r1 r3\nr6 = fmul.f32 r0 r4\nr7 = fsub.f32 r5 r6\n"
+      "r8 = fmul.f32 r0 r3\nr9 = fmul.f32 r1 r4\nr10 = fadd.f32 r8 r9\n"
+      "r11 = atan2.f32 r7 r10\nnext r2 r11\nfrequency r2\n",
+      {"a", "b"},
+      {"w"},
+      {},
+      "e = atan2(b*cos(w) - a*sin(w), a*cos(w) + b*sin(w))\n"
+      "turn1 = stays_within(e, -3.14, 3.14)\n"
+      "w' = e\n",
+      "w"};
+}
+
+TEST_CASE("the angle of samples that are turned back is known where a limit keeps it from half a turn") {
+  const auto is_known = [](const std::string& from, const std::string& to) {
+    CodeDesign design = turned_back();
+    design.step = replaced(design.step, from, to);
+    Objections objections;
+    const auto code = check_code(read_json(design.json().dump()), objections);
+    REQUIRE(objections.empty());
+    REQUIRE(code.angles);
+    return code.angles->arcs.contains(static_cast<int>(code.listing.operations.size()) - 1);
+  };
+  CHECK(is_known("3.14, 3.14", "3.14, 3.14"));
+  CHECK(is_known("-3.14, 3.14", "-1, 3.14"));
+  CHECK_FALSE(is_known("-3.14, 3.14", "-3.14, 3.141"));
+  CHECK_FALSE(is_known("-3.14, 3.14", "-3.15, 3.14"));
+  CHECK_FALSE(is_known("stays_within(e, ", "stays_within(w, "));
+  CHECK_FALSE(is_known("turn1 = stays_within(e, -3.14, 3.14)\n", ""));
+}
+
 struct Function {
   const char* operations;
   const char* result;

@@ -104,4 +104,21 @@ TEST_CASE("an angle of turned samples has a bound with a limit below half a turn
   CHECK_FALSE(bound(3.125, 0.0));
 }
 
+TEST_CASE("in a listing of code such an angle has its limit in the recursion, and needs a length") {
+  const rigor::UpwardRounding upward;
+  const TurnedLoop loop;
+  const auto bound = [&](double least) {
+    const StepRanges ranges{{rigor::Interval::from_bounds(-3.0, 3.0)},
+                            rigor::Interval::from_bounds(-2.0, 2.0),
+                            {},
+                            nullptr,
+                            least};
+    return step_rounding(loop.made.listing, ranges);
+  };
+  REQUIRE(bound(1e-3));
+  CHECK(bound(1e-3)->next[0] > 0x1p-24);
+  CHECK(bound(1e-3)->next[0] < 0x1p-20);
+  CHECK_FALSE(bound(0.0));
+}
+
 }  // namespace veritrack::model::code

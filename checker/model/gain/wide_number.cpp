@@ -1,5 +1,6 @@
 #include "checker/model/gain/wide_number.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,7 +10,7 @@ namespace {
 
 constexpr double kMargin = 1.0 + 0x1p-36;
 constexpr double kUnderflow = 0x1p-1000;
-/// The error of a sum of products of any sign, relative to the sum of absolute values: far above 33
+/// The error of a sum of products of any sign, relative to the sum of absolute values: far above 132
 /// roundings.
 constexpr double kError = 0x1p-45;
 const double kInfinity = HUGE_VAL;
@@ -42,10 +43,18 @@ WideNumber dot(const WideRow& x, const WideRow& y) {
   WideNumber result;
   double spread = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    result.middle += x[i].middle * y[i].middle;
-    const double size = std::abs(y[i].middle);
-    spread += upward_product(x[i].radius, size + y[i].radius) +
-              upward_product(std::abs(x[i].middle), y[i].radius + upward_product(kError, size));
+    // Products of factors that keep their signs are between those of the ends, whose mean is the product of
+    // the middles and that of the radii. Where a radius is larger than the middle, the part of it that is
+    // not adds to the radius.
+    const double product = x[i].middle * y[i].middle;
+    const double of_x = std::abs(x[i].middle);
+    const double of_y = std::abs(y[i].middle);
+    const double shared_x = std::min(of_x, x[i].radius);
+    const double shared_y = std::min(of_y, y[i].radius);
+    result.middle += product + std::copysign(shared_x * shared_y, product);
+    spread += upward_product(of_x, y[i].radius + upward_product(kError, of_y)) +
+              upward_product(x[i].radius, of_y + (y[i].radius - shared_y)) +
+              upward_product(shared_y, x[i].radius - shared_x);
   }
   result.radius = up(spread);
   return result;

@@ -29,7 +29,7 @@ double upward_product(double x, double y);
 double upper(const Ball& x);
 WideNumber wide(const Ball& x);
 double largest_size(const WideNumber& x);
-/// The sum of at most 32 products. `middle` is the sum of products of the middles, as computed.
+/// The sum of at most 32 products. Of exact numbers `middle` is the sum of their products, as computed.
 WideNumber dot(const WideRow& x, const WideRow& y);
 /// Not below the length of a vector of two.
 double length(const WideNumber& x, const WideNumber& y);

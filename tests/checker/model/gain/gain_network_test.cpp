@@ -490,6 +490,24 @@ TEST_CASE("a vector whose length matters is an angle and a length") {
   CHECK_FALSE(other.network().is_at_rest);
 }
 
+TEST_CASE("with amplitudes in a range no factor is wider than the quotient of its ends") {
+  // The last sample as a vector, seen along its direction: x/x^2 times the noise, for 0.95 <= x <= 1.05.
+  Loop loop = test::product_loop();
+  loop.least_amplitude = 0.95;
+  loop.largest_amplitude = 1.05;
+  double most = 0.0;
+  for (const GainForm& form : loop.network().forms) {
+    const bool is_direct = std::all_of(form.row.begin(), form.row.end(),
+                                       [](const Ball& factor) { return certainly_equal(factor, zero); });
+    for (const auto& [input, factor] : form.direct) {
+      for (const Ball& part : {factor.first, factor.second}) {
+        most = std::max(most, is_direct && input == 0 ? abs(part).upper_double() : 0.0);
+      }
+    }
+  }
+  CHECK(most == doctest::Approx(1.05 / (0.95 * 0.95)).epsilon(1e-7));
+}
+
 TEST_CASE("a vector at rest is seen from its own direction, whatever else has its length as a factor") {
   Loop loop{{"p", "r", "phase", "freq"},
             {{"a", "0.1"}},

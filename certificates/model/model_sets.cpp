@@ -125,6 +125,10 @@ Interval slew_of(const ModelAssumptions& assume) {
   return Interval(2.0) * rigor::pi() * assume.slew.value / (rate * rate);
 }
 
+double least_sample_of(const ModelAssumptions& assume) {
+  return (Interval(1.0 - model::kMostNoise) * assume.amplitude[0].value).lower();
+}
+
 const ModelSets& model_sets(const Certificate& certificate) {
   return std::any_cast<const ModelSets&>(certificate.particulars);
 }
@@ -192,8 +196,7 @@ model::RoundingOfStep rounding_of(const language::WrittenListing& written, const
 model::SetQuestion question_of(const Model& model, const ModelTables& tables, bool by_structure) {
   const ModelAssumptions& assume = tables.assume;
   model::SetQuestion question{.tone = proposed_tone(model, assume), .tracker = proved_model(model, assume)};
-  // With rounding, no noise beyond that share of the amplitude is claimed.
-  const double least_sample = (rigor::Interval(1.0 - model::kMostNoise) * assume.amplitude[0].value).lower();
+  const double least_sample = least_sample_of(assume);
   if (tables.model.compiled && tables.model.compiled->recursion.ranges_keep_obligations) {
     question.rounding = rounding_of(*tables.model.compiled, least_sample);
     question.turned = tables.model.compiled->arc_tangent ? tables.model.compiled->arc_tangent->error : 0.0;

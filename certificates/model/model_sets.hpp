@@ -49,6 +49,10 @@ struct ModelSets : model::ProvedSets {
 /// The assumed slew, rad/sample per sample. Needs the upward rounding mode.
 [[nodiscard]] rigor::Interval slew_of(const ModelAssumptions& assume);
 
+/// At most the length of a sample of two channels with the most noise that is claimed of a program that
+/// rounds. Needs the upward rounding mode.
+[[nodiscard]] double least_sample_of(const ModelAssumptions& assume);
+
 /// The sets of the certificate of a design of this kind. Throws std::bad_any_cast for another.
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);
 

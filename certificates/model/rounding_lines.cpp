@@ -71,10 +71,11 @@ listed::Listing in_double(listed::Listing listing, const Line& line) {
 
 /// The states in their room, and samples with noise up to the amplitude.
 model::code::StepRanges ranges_of(const code::CompiledCode& code, const model::GainProof& proof,
-                                  const rigor::Interval& band) {
+                                  const ModelAssumptions& assume) {
+  const rigor::Interval band = band_of(assume);
   const double most = 2.0 * proof.rounding->amplitude;
   model::code::StepRanges ranges{
-      {}, rigor::Interval::from_bounds(-most, most), code.recursion.bases, nullptr, 0.0};
+      {}, rigor::Interval::from_bounds(-most, most), code.recursion.bases, nullptr, least_sample_of(assume)};
   for (std::size_t i = 0; i < proof.steady.size(); ++i) {
     const model::SteadyValue& each = proof.steady[i];
     const double room = proof.rounding->room[i];
@@ -133,8 +134,7 @@ std::string rounding_line_text(const ModelTables& tables, const model::GainProof
   const auto line = [&] {
     const rigor::UpwardRounding upward;
     most_frequency = rigor::magnitude(band_of(tables.assume));
-    return line_of_most_rounding(code, ranges_of(code, proof, band_of(tables.assume)),
-                                 proof.assumed->rounding_gains);
+    return line_of_most_rounding(code, ranges_of(code, proof, tables.assume), proof.assumed->rounding_gains);
   }();
   if (!line) {
     return "";

@@ -10,7 +10,7 @@ import unittest
 from support import ROOT, CliTestCase
 
 SCRIPT = ROOT / "scripts" / "random-loops"
-KINDS = 11
+KINDS = 13
 SET = {"name": "starts"}
 CLAIM = {"id": "model/guarantee", "verdict": "proved"}
 
@@ -47,8 +47,8 @@ sys.exit({certify})""")
         self.assertEqual(len(set(texts)), 2 * KINDS)
         for text in texts:
             low, high = (lambda band: band["hz"] if isinstance(band, dict) else band)(tomllib.loads(text)["assume"]["frequency"])
-            self.assertLess(0.0, low)
             self.assertLess(low, high)
+            self.assertTrue(0.0 < low or "cross" in text, text)  # the samples of two channels turn either way
 
     def test_a_loop_of_a_seed_is_always_the_same(self):
         def text(*options):

@@ -65,9 +65,9 @@ class GainSets {
     return bounds && widened(*gains_, widened(*gains_, bounds->for_ever)) < half_distance_;
   }
 
-  /// Certainly above the upper limit, which is 0 without noise.
-  [[nodiscard]] double above_limit(double long_run) const {
-    return rigor::add_up(widened(*gains_, long_run), kRounding);
+  /// What is claimed of a bound, which is 0 without noise.
+  [[nodiscard]] double claimed(double bound) const {
+    return rigor::add_up(widened(*gains_, bound), kRounding);
   }
 
   /// For a search, which ends at the deadline.
@@ -86,8 +86,8 @@ class GainSets {
     const std::optional<LoopBounds> bounds = gains_->bounds(disturbance);
     set.tubes.is_complete = bounds.has_value();
     if (bounds) {
-      set.frequency_error = widened(*gains_, bounds->for_ever);
-      set.settled_error = above_limit(bounds->long_run);
+      set.frequency_error = claimed(bounds->for_ever);
+      set.settled_error = claimed(bounds->long_run);
     } else {
       set.tubes.reasons.emplace_back("the bounds of the errors do not close: too much noise or slew");
     }
@@ -121,7 +121,7 @@ class GainSets {
       return;
     }
     const Interval& bias = gains_->network().bias;
-    const double mean = rigor::add_up(widened(*gains_, bounds->mean), kRounding);
+    const double mean = claimed(bounds->mean);
     set.bias = bias + Interval::from_bounds(-mean, mean);
     const double largest = rigor::sub_up(bounds->long_run, rigor::magnitude(bias));
     set.ripple = rigor::add_up(2.0 * widened(*gains_, largest), kRounding);
@@ -141,7 +141,7 @@ class GainSets {
     };
     set.reach = largest_with(rigor::pi().lower(), [&](double error) { return is_lock(tried(from(error))); });
     if (const auto bounds = gains_->bounds(from(set.reach)); set.reach > 0.0 && bounds) {
-      set.frequency_error = widened(*gains_, bounds->for_ever);
+      set.frequency_error = claimed(bounds->for_ever);
     }
   }
 
@@ -159,8 +159,8 @@ class GainSets {
       return disturbance;
     };
     if (const auto bounds = gains_->bounds(from(1.0))) {
-      set.frequency_error = widened(*gains_, bounds->for_ever);
-      set.settled_error = above_limit(bounds->long_run);
+      set.frequency_error = claimed(bounds->for_ever);
+      set.settled_error = claimed(bounds->long_run);
       return;
     }
     const double share = largest_with(1.0, [&](double each) { return tried(from(each)).has_value(); });

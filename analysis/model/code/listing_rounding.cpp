@@ -490,8 +490,9 @@ class Evaluation {
   /// Of the exact angle of a sample that is turned back: the recursion of a code has that limit.
   [[nodiscard]] Interval limit_of_arc(int place) const {
     const auto limit = limits_.find(place);
-    const double most = ranges_->facts == nullptr ? kMostOfWrapped : kInfinity;
-    return limit != limits_.end() ? limit->second : Interval::from_bounds(-most, most);
+    return limit != limits_.end()      ? limit->second
+           : ranges_->facts == nullptr ? Interval::from_bounds(-kMostOfWrapped, kMostOfWrapped)
+                                       : Interval::from_bounds(-kInfinity, kInfinity);
   }
 
   /// The angle of a point turns by no more than asin(off / distance), at most pi/2 times that.

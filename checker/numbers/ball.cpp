@@ -1,7 +1,9 @@
 #include "checker/numbers/ball.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -68,11 +70,30 @@ void set_precision(slong bits) {
 }
 
 Ball detail::product_of_ends(const Ball& x, const Ball& y) {
-  const auto times = [](const Ball& a, const Ball& b) { return value_of_arb(arb_mul, a, b); };
-  const Ball low = x.lower();
-  const Ball high = x.upper();
-  const Ball of_low = Ball::hull(times(low, y.lower()), times(low, y.upper()));
-  return Ball::hull(of_low, Ball::hull(times(high, y.lower()), times(high, y.upper())));
+  spend();
+  Ball z;
+  std::array<arf_struct, 4> ends;   // of x, then of y
+  std::array<arf_struct, 3> found;  // the least product, the largest, and one of them
+  std::for_each(ends.begin(), ends.end(), [](arf_struct& each) { arf_init(&each); });
+  std::for_each(found.begin(), found.end(), [](arf_struct& each) { arf_init(&each); });
+  arb_get_interval_arf(&ends[0], &ends[1], x.raw(), precision());
+  arb_get_interval_arf(&ends[2], &ends[3], y.raw(), precision());
+  for (std::size_t pair = 0; pair < 4; ++pair) {
+    const arf_struct* of_x = &ends[pair / 2];
+    const arf_struct* of_y = &ends[2 + pair % 2];
+    arf_mul(&found[2], of_x, of_y, precision(), ARF_RND_FLOOR);
+    if (pair == 0 || arf_cmp(&found[2], &found[0]) < 0) {
+      arf_set(&found[0], &found[2]);
+    }
+    arf_mul(&found[2], of_x, of_y, precision(), ARF_RND_CEIL);
+    if (pair == 0 || arf_cmp(&found[2], &found[1]) > 0) {
+      arf_set(&found[1], &found[2]);
+    }
+  }
+  arb_set_interval_arf(z.raw(), &found[0], &found[1], precision());
+  std::for_each(ends.begin(), ends.end(), [](arf_struct& each) { arf_clear(&each); });
+  std::for_each(found.begin(), found.end(), [](arf_struct& each) { arf_clear(&each); });
+  return z;
 }
 
 Ball detail::square_of_ends(const Ball& x) {
